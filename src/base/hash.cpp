@@ -1,0 +1,81 @@
+#include "base/hash.h"
+
+#include <openssl/evp.h>
+
+#include "base/expect.h"
+
+namespace skinforge {
+
+std::string Digest::hex() const {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  text.reserve(64);
+  for (const std::uint8_t byte : bytes) {
+    text.push_back(kDigits[byte >> 4]);
+    text.push_back(kDigits[byte & 15]);
+  }
+  return text;
+}
+
+namespace {
+int hex_value(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return -1;
+}
+}  // namespace
+
+std::optional<Digest> digest_from_hex(std::string_view hex) {
+  Digest digest;
+  if (hex.size() != 2 * digest.bytes.size()) return std::nullopt;
+  for (std::size_t i = 0; i < digest.bytes.size(); ++i) {
+    const int high = hex_value(hex[2 * i]), low = hex_value(hex[2 * i + 1]);
+    if (high < 0 || low < 0) return std::nullopt;
+    digest.bytes[i] = static_cast<std::uint8_t>(high * 16 + low);
+  }
+  return digest;
+}
+
+Digest sha256(std::span<const std::byte> bytes) {
+  Digest digest;
+  SF_EXPECT(EVP_Digest(bytes.data(), bytes.size(), digest.bytes.data(), nullptr, EVP_sha256(), nullptr) == 1);
+  return digest;
+}
+
+struct Hasher::State {
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
+
+  void update(std::span<const std::byte> bytes) {
+    const auto size = static_cast<std::uint64_t>(bytes.size());
+    EVP_DigestUpdate(context.get(), &size, sizeof size);
+    EVP_DigestUpdate(context.get(), bytes.data(), bytes.size());
+  }
+};
+
+Hasher::Hasher() : state_(std::make_unique<State>()) {
+  SF_EXPECT(EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr) == 1);
+}
+Hasher::~Hasher() = default;
+Hasher::Hasher(Hasher&&) noexcept = default;
+Hasher& Hasher::operator=(Hasher&&) noexcept = default;
+
+void Hasher::add(std::string_view name, std::span<const std::byte> value) {
+  state_->update(std::as_bytes(std::span(name)));
+  state_->update(value);
+}
+
+void Hasher::add(std::string_view name, std::string_view value) {
+  add(name, std::span<const std::byte>(std::as_bytes(std::span(value))));
+}
+
+void Hasher::add(std::string_view name, const Digest& value) {
+  add(name, std::span<const std::byte>(std::as_bytes(std::span(value.bytes))));
+}
+
+Digest Hasher::finish() {
+  Digest digest;
+  SF_EXPECT(EVP_DigestFinal_ex(state_->context.get(), digest.bytes.data(), nullptr) == 1);
+  return digest;
+}
+
+}  // namespace skinforge

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/archive.h"
+#include "base/math.h"
+
+namespace skinforge {
+
+/// A regular lattice: point (i, j, k) sits at origin + voxel * (i, j, k), metres, model space.
+struct Lattice {
+  Vec3 origin = Vec3::Zero();
+  double voxel = 0;
+  std::array<std::int32_t, 3> size = {0, 0, 0};  ///< points along x, y, z
+
+  std::size_t count() const { return static_cast<std::size_t>(size[0]) * size[1] * size[2]; }
+  std::size_t index(int i, int j, int k) const { return (static_cast<std::size_t>(k) * size[1] + j) * size[0] + i; }
+  Vec3 point(int i, int j, int k) const { return origin + voxel * Vec3(i, j, k); }
+
+  template <class Archive>
+  friend void fields(Archive& a, Lattice& l) {
+    a(l.origin, l.voxel, l.size);
+  }
+};
+
+/// Signed distances on a lattice, negative inside; x runs fastest.
+struct DistanceField {
+  Lattice lattice;
+  std::vector<float> values;  ///< metres
+
+  /// Trilinear value at a model-space point; points outside the lattice take the value of the nearest lattice point.
+  double at(const Vec3& p) const;
+  /// Gradient of the trilinear interpolant by central differences of half a voxel.
+  Vec3 gradient(const Vec3& p) const;
+
+  template <class Archive>
+  friend void fields(Archive& a, DistanceField& f) {
+    a(f.lattice, f.values);
+  }
+};
+
+/// Surface of a field: quads and triangles with shared vertices, counter-clockwise from outside.
+struct IsoSurface {
+  std::vector<Vec3> positions;
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< quads split along the shorter diagonal
+};
+
+/// Zero surface of the field by OpenVDB's dual contouring (adaptivity 0). Closed inside the lattice; open where it meets
+/// the lattice's faces. Same bits for any number of threads.
+IsoSurface extract_iso_surface(const DistanceField& field);
+
+/// The field as a `.vdb` file that other tools open: one FloatGrid "distance" of class level set, with its transform.
+/// No dates, hosts or random ids in the bytes: equal fields give equal files.
+Bytes to_vdb(const DistanceField& field);
+
+}  // namespace skinforge
