@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/archive.h"
+
+namespace skinforge {
+
+/// Named byte strings in folders, "ac/<name>" and "cas/<name>": what the cache needs of a disk. Nothing here
+/// throws: a store that is in trouble reads as empty and refuses writes. Thread-safe.
+class BlobStore {
+ public:
+  struct Entry {
+    std::string name;  ///< without the folder
+    std::uint64_t size = 0;
+  };
+
+  virtual ~BlobStore() = default;
+  /// The bytes, or none when there is no such entry or it cannot be read.
+  virtual std::optional<Bytes> read(const std::string& path) const = 0;
+  /// Its size, without reading it.
+  virtual std::optional<std::uint64_t> size(const std::string& path) const = 0;
+  /// Makes the entry appear whole or not at all, in place of an older one. False when that did not work.
+  virtual bool write(const std::string& path, std::span<const std::byte> bytes) = 0;
+  virtual void remove(const std::string& path) = 0;
+  /// All entries of a folder by rising name; temporaries are not entries.
+  virtual std::vector<Entry> list(const std::string& folder) const = 0;
+};
+
+/// In memory, for tests; `entries` is open so that they can do damage.
+class MemoryStore final : public BlobStore {
+ public:
+  std::optional<Bytes> read(const std::string& path) const override;
+  std::optional<std::uint64_t> size(const std::string& path) const override;
+  bool write(const std::string& path, std::span<const std::byte> bytes) override;
+  void remove(const std::string& path) override;
+  std::vector<Entry> list(const std::string& folder) const override;
+
+  std::map<std::string, Bytes> entries;
+  bool is_read_only = false;
+
+ private:
+  mutable std::mutex mutex_;
+};
+
+/// A folder on disk. Writes go to a temporary in the same folder, created anew (O_EXCL) as
+/// ".tmp-<process>-<random>", then renamed; no fsync, since readers verify every digest. The folder is made
+/// by the first write, which also removes temporaries older than an hour whose process is gone.
+class DiskStore final : public BlobStore {
+ public:
+  explicit DiskStore(std::filesystem::path root) : root_(std::move(root)) {}
+
+  std::optional<Bytes> read(const std::string& path) const override;
+  std::optional<std::uint64_t> size(const std::string& path) const override;
+  bool write(const std::string& path, std::span<const std::byte> bytes) override;
+  void remove(const std::string& path) override;
+  std::vector<Entry> list(const std::string& folder) const override;
+
+  const std::filesystem::path& root() const { return root_; }
+  /// Removes stale temporaries of one folder; `age_seconds` as of the file's own time stamp.
+  void remove_stale_temporaries(const std::string& folder, double age_seconds = 3600) const;
+
+ private:
+  std::filesystem::path root_;
+  std::mutex mutex_;
+  std::map<std::string, bool> prepared_;  ///< folders that this process has made and tidied
+};
+
+/// Writes a file so that it appears whole or not at all: temporary in the same folder, then rename. False
+/// when any step fails; the temporary is removed then.
+bool write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+}  // namespace skinforge

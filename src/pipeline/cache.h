@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/hash.h"
+#include "base/issue.h"
+#include "pipeline/blob_store.h"
+
+namespace skinforge {
+
+/// What a stage run cost. Information only: never part of a key or an artifact.
+struct StageCost {
+  double wall_seconds = 0;
+  double cpu_seconds = 0;        ///< of the whole process with one job, else of the stage's own thread
+  std::uint64_t peak_bytes = 0;  ///< largest resident size of the process up to the end of the stage
+};
+
+/// A named text: a parameter or an input digest as it went into a key.
+struct KeyField {
+  std::string name;
+  std::string value;
+  auto operator<=>(const KeyField&) const = default;
+};
+
+/// The record of one stage run: what went in, what came out.
+struct Manifest {
+  struct Output {
+    std::string name;
+    Digest digest;
+    std::uint64_t size = 0;
+  };
+  Digest key;
+  std::string build;  ///< id of the tool
+  std::string stage;
+  std::string instance;
+  int version = 0;
+  std::vector<KeyField> parameters;  ///< in the order of `add_to_key`
+  std::vector<KeyField> inputs;      ///< artifact name and digest, in the order of `reads`
+  std::vector<Output> outputs;       ///< in the order of `writes`
+  std::vector<Issue> issues;
+  StageCost cost;
+};
+
+/// Manifest as stored: one line "skinforge-manifest <format> <key> <length> <sha256 of the rest>", then JSON.
+std::string manifest_text(const Manifest& manifest);
+/// Reads it back; none when anything is off: header, length, digest, JSON, or another key than `key`.
+std::optional<Manifest> parse_manifest(std::string_view text, const Digest& key);
+
+/// Results of stages by content: `ac/<key>` holds manifests, `cas/<sha256>` the blobs they name. Blobs are
+/// written before the manifest, everything that is read is verified, and no trouble here fails a build: it is
+/// a miss and one warning. Thread-safe; several processes may share one folder.
+class Cache {
+ public:
+  /// `store` must outlive the cache.
+  explicit Cache(BlobStore& store) : store_(store) {}
+
+  /// The manifest of a key, if it is sound and every blob it names is there with the right length. The
+  /// content of the blobs is verified when they are read.
+  std::optional<Manifest> find(const Digest& key);
+  /// A manifest read for information only (the blobs may be gone).
+  std::optional<Manifest> peek(const Digest& key);
+  /// The blob of that digest; a damaged one is removed and counts as missing.
+  std::optional<Bytes> blob(const Digest& digest);
+  /// Stores a blob unless it is there. False when the store refuses.
+  bool put_blob(const Digest& digest, std::span<const std::byte> bytes);
+  /// Stores a manifest; its blobs must be stored.
+  void put(const Manifest& manifest);
+
+  /// Keys of the last run of a session, by stage label: for "why did it run?".
+  std::map<std::string, Digest> last_keys(const std::string& session);
+  void put_last_keys(const std::string& session, const std::map<std::string, Digest>& keys);
+
+  struct StageStats {
+    std::uint64_t entries = 0;
+    double seconds = 0;  ///< wall time that a hit of each entry saves, summed
+  };
+  struct Stats {
+    std::uint64_t manifests = 0;
+    std::uint64_t blobs = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t unreferenced_blobs = 0;
+    std::map<std::string, StageStats> stages;
+  };
+  Stats stats();
+  /// Reads everything; removes what is damaged and manifests whose blobs are gone. One sentence for each.
+  std::vector<std::string> verify();
+  /// Removes every entry, manifests first. Returns how many.
+  std::uint64_t clear();
+
+  /// Warnings since the last call, at most one of each kind in a session.
+  std::vector<Issue> take_warnings();
+
+ private:
+  void warn(const std::string& code, const std::string& place, const std::string& message);
+
+  BlobStore& store_;
+  std::mutex mutex_;
+  std::vector<Issue> warnings_;
+  std::map<std::string, int> warned_;
+};
+
+}  // namespace skinforge

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipeline/engine.h"
+
+namespace skinforge {
+
+/// A file to be made of an artifact of type `Bytes`.
+struct OutputFile {
+  std::string name;      ///< relative to the output folder, a safe relative path (base/safe_name.h)
+  std::string artifact;  ///< e.g. "glb"
+};
+
+struct PublishedFile {
+  std::string name;
+  Digest digest;
+  std::uint64_t size = 0;
+  bool was_written = false;  ///< false when the file was there with these bytes
+};
+
+/// Brings artifacts into `folder` (made if need be): temporary file, then rename, only where the present
+/// bytes differ. An output whose artifact is not known (its stage failed) is left out. Throws Error: Usage
+/// for an unsafe or repeated name, for a name whose folder leads outside `folder` by a link, and for a file
+/// listed in `inputs` (paths that must not be overwritten); StageFailed when a file cannot be written.
+std::vector<PublishedFile> publish(Engine& engine, std::span<const OutputFile> files,
+                                   const std::filesystem::path& folder,
+                                   std::span<const std::filesystem::path> inputs = {});
+
+}  // namespace skinforge

@@ -1,0 +1,164 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/archive.h"
+#include "base/error.h"
+
+/// A recipe as plain data: every default is here, and the schema (schemas/recipe.schema.json) repeats it.
+/// Angles in degrees as the person wrote them, lengths in metres. The `fields` of each struct are what a
+/// stage key may hash: no paths, no places in the file.
+namespace skinforge {
+
+/// How an input is posed before it is mixed (SkinMixer Sec. 4.1, Fig. 3).
+struct PoseChange {
+  std::array<double, 3> rotate_deg = {0, 0, 0};  ///< x, y, z; R = Ry(y) Rx(x) Rz(z), in the joint's own frame
+  std::array<double, 3> translate = {0, 0, 0};   ///< metres, model axes
+
+  auto operator<=>(const PoseChange&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, PoseChange& p) {
+    a(p.rotate_deg, p.translate);
+  }
+};
+
+struct Recipe;
+
+/// A path as it stands in the recipe, and where it leads.
+struct RecipePath {
+  std::string text;
+  std::filesystem::path resolved;  ///< beside the recipe; absolute when the recipe's path was
+};
+
+/// One character that goes in: a model file, or another recipe.
+struct RecipeInput {
+  std::string name;                        ///< the key in "inputs"
+  RecipePath file;                         ///< the model; for { "recipe": ... } the recipe
+  std::shared_ptr<const Recipe> recipe;    ///< set when the input is made by another recipe
+  std::vector<RecipePath> clips;           ///< further files whose clips are added
+  std::map<std::string, PoseChange> pose;  ///< by joint name
+  std::string root;                        ///< joint to take as the root; empty = as the file has it
+};
+
+enum class OperationKind : std::uint8_t { Replace, Attach, Remove, Detach };
+enum class Align : std::uint8_t { Joint, Loop, None };
+enum class Blend : std::uint8_t { Auto, Blend, Union, Paper, Smin, Gradient };
+
+/// Where the grafted part goes (SkinMixer Sec. 4.1): p -> scale R p about `joint`, then moved by `align`,
+/// then by `offset`; with Align::None p -> scale R p + offset about the input's origin.
+struct Placement {
+  Align align = Align::Joint;
+  bool scale_by_loop =
+      false;         ///< "scale": "loop", makes the girths of the cut loops equal; `scale` is 1 then
+  double scale = 1;  ///< > 0
+  std::array<double, 3> rotate_deg = {0, 0, 0};  ///< x, y, z; R = Ry(y) Rx(x) Rz(z)
+  std::array<double, 3> offset = {0, 0, 0};      ///< metres
+
+  auto operator<=>(const Placement&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, Placement& p) {
+    a(p.align, p.scale_by_loop, p.scale, p.rotate_deg, p.offset);
+  }
+};
+
+struct RecipeOperation {
+  OperationKind kind = OperationKind::Replace;
+  std::vector<std::string> at;  ///< joints of the character as it stands; at least one, each once
+  std::string from;             ///< input; replace and attach
+  std::string joint;            ///< joint of that input; replace and attach
+  Placement place;
+  Blend blend = Blend::Auto;
+
+  auto operator<=>(const RecipeOperation&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, RecipeOperation& o) {
+    a(o.kind, o.at, o.from, o.joint, o.place, o.blend);
+  }
+};
+
+/// Components that are neither clearly kept nor clearly gone are decided as wholes (SkinMixer Sec. 6).
+struct KeepOrDrop {
+  double variance = 0.04;  ///< a component whose presence varies less is decided as a whole; [0, 0.25]
+  double mean = 0.5;       ///< kept when its mean presence reaches this; [0, 1]
+
+  auto operator<=>(const KeepOrDrop&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, KeepOrDrop& k) {
+    a(k.variance, k.mean);
+  }
+};
+
+struct SurfaceOptions {
+  double voxel_factor = 0.5;    ///< voxel edge over the shorter mean edge length; [0.1, 4]. Paper: 0.8; ours:
+                                ///< 0.5, at 0.8 thin limbs lost their junction (junction.md)
+  int presence_smoothing = 10;  ///< Laplacian passes over the presence; [0, 99]
+  KeepOrDrop keep_or_drop;
+
+  auto operator<=>(const SurfaceOptions&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, SurfaceOptions& s) {
+    a(s.voxel_factor, s.presence_smoothing, s.keep_or_drop);
+  }
+};
+
+struct AnimationOptions {
+  bool all_clips = true;
+  std::vector<std::string> clips;  ///< names to keep, when not all
+  bool complete = true;            ///< give the other parts motion in each clip (SkinMixer Sec. 8)
+  double rate_hz = 30;             ///< keys a second of completed tracks; [1, 240]
+
+  auto operator<=>(const AnimationOptions&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, AnimationOptions& o) {
+    a(o.all_clips, o.clips, o.complete, o.rate_hz);
+  }
+};
+
+/// Files to write, as safe relative paths; an empty name writes no such file.
+struct OutputOptions {
+  std::string glb;  ///< default: the recipe's name + ".glb"
+  std::string obj;
+  std::string vdb;
+  int influences = 4;  ///< 4 or 8 a vertex
+
+  auto operator<=>(const OutputOptions&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, OutputOptions& o) {
+    a(o.glb, o.obj, o.vdb, o.influences);
+  }
+};
+
+struct Recipe {
+  std::filesystem::path path;
+  std::string name;                 ///< a safe file name
+  std::vector<RecipeInput> inputs;  ///< by rising name, so the order in the file does not matter
+  std::string base;                 ///< an input
+  std::vector<RecipeOperation> operations;
+  SurfaceOptions surface;
+  AnimationOptions animation;
+  OutputOptions output;
+  std::map<std::string, std::string> places;  ///< JSON pointer -> "centaur.json:12:9"
+
+  /// Index into `inputs` of a name that the recipe uses (load_recipe has checked that it is there).
+  std::size_t input_index(const std::string& input) const;
+  /// "centaur.json:12:9: /ops/0/at", for messages about what stands there; the nearest enclosing place when
+  /// `pointer` itself was left to its default.
+  std::string place(const std::string& pointer) const;
+};
+
+/// Reads a recipe: JSON, JSON with comments (.json, .jsonc), YAML (.yaml, .yml). Inputs that are recipes are
+/// read too. Names, kinds, ranges and references between parts of the recipe are checked, files other than
+/// recipes are not touched. Throws Error: BadInput when `path` cannot be read; Usage for everything else, one
+/// line such as `centaur.json:12:9: /ops/0/at: unknown key "att" (nearest: "at")`.
+Recipe load_recipe(const std::filesystem::path& path);
+
+/// The same from text in hand; `path` gives the format, the folder and the name in messages.
+Recipe parse_recipe(const std::string& text, const std::filesystem::path& path);
+
+}  // namespace skinforge
