@@ -3,6 +3,7 @@
 #include <openssl/evp.h>
 
 #include "base/expect.h"
+#include "base/text.h"
 
 namespace skinforge {
 
@@ -44,6 +45,7 @@ Digest sha256(std::span<const std::byte> bytes) {
 
 struct Hasher::State {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
+  std::vector<HashedField>* log = nullptr;
 
   void update(std::span<const std::byte> bytes) {
     const auto size = static_cast<std::uint64_t>(bytes.size());
@@ -59,17 +61,26 @@ Hasher::~Hasher() = default;
 Hasher::Hasher(Hasher&&) noexcept = default;
 Hasher& Hasher::operator=(Hasher&&) noexcept = default;
 
-void Hasher::add(std::string_view name, std::span<const std::byte> value) {
+void Hasher::add_bytes(std::string_view name, std::span<const std::byte> value, std::string readable) {
   state_->update(std::as_bytes(std::span(name)));
   state_->update(value);
+  if (state_->log) state_->log->push_back({std::string(name), std::move(readable)});
+}
+
+void Hasher::add(std::string_view name, std::span<const std::byte> value) {
+  add_bytes(name, value, state_->log ? "sha256:" + sha256(value).hex().substr(0, 12) : std::string());
 }
 
 void Hasher::add(std::string_view name, std::string_view value) {
-  add(name, std::span<const std::byte>(std::as_bytes(std::span(value))));
+  add_bytes(name, std::as_bytes(std::span(value)), state_->log ? printable(value) : std::string());
 }
 
 void Hasher::add(std::string_view name, const Digest& value) {
   add(name, std::span<const std::byte>(std::as_bytes(std::span(value.bytes))));
+}
+
+void Hasher::log_to(std::vector<HashedField>& log) {
+  state_->log = &log;
 }
 
 Digest Hasher::finish() {

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include "base/archive.h"
 
@@ -30,6 +34,13 @@ std::optional<Digest> digest_from_hex(std::string_view hex);
 /// Digest of the bytes as they are.
 Digest sha256(std::span<const std::byte> bytes);
 
+/// A field as it went into a Hasher, for people to read.
+struct HashedField {
+  std::string name;
+  std::string value;  ///< a text or number as it is; anything else as "sha256:" and 12 digits of its digest
+  auto operator<=>(const HashedField&) const = default;
+};
+
 /// Digest of a list of named fields: each name and value is length-prefixed, so no two lists collide by
 /// concatenation.
 class Hasher {
@@ -47,12 +58,18 @@ class Hasher {
   template <class T>
   void add_value(std::string_view name, const T& value) {
     const Bytes bytes = to_bytes(value);
-    add(name, std::span<const std::byte>(bytes));
+    if constexpr (std::is_arithmetic_v<T>)
+      add_bytes(name, bytes, fmt::format("{}", value));
+    else
+      add(name, std::span<const std::byte>(bytes));
   }
+  /// Notes each further field in `log` too, without effect on the digest. `log` must outlive the hasher.
+  void log_to(std::vector<HashedField>& log);
   /// Ends the list. The hasher must not be used after.
   Digest finish();
 
  private:
+  void add_bytes(std::string_view name, std::span<const std::byte> value, std::string readable);
   struct State;
   std::unique_ptr<State> state_;
 };

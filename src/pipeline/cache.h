@@ -20,13 +20,6 @@ struct StageCost {
   std::uint64_t peak_bytes = 0;  ///< largest resident size of the process up to the end of the stage
 };
 
-/// A named text: a parameter or an input digest as it went into a key.
-struct KeyField {
-  std::string name;
-  std::string value;
-  auto operator<=>(const KeyField&) const = default;
-};
-
 /// The record of one stage run: what went in, what came out.
 struct Manifest {
   struct Output {
@@ -39,8 +32,8 @@ struct Manifest {
   std::string stage;
   std::string instance;
   int version = 0;
-  std::vector<KeyField> parameters;  ///< in the order of `add_to_key`
-  std::vector<KeyField> inputs;      ///< artifact name and digest, in the order of `reads`
+  std::vector<HashedField> parameters;  ///< in the order of `add_to_key`
+  std::vector<HashedField> inputs;      ///< artifact name and digest, in the order of `reads`
   std::vector<Output> outputs;       ///< in the order of `writes`
   std::vector<Issue> issues;
   StageCost cost;
