@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/edges.h"
+#include "model/polygon_mesh.h"
+
+namespace skinforge {
+
+/// A run of edges along which kept faces end and discarded ones begin, in the direction in which a new face
+/// would run.
+struct BorderChain {
+  std::vector<VertexId> vertices;  ///< one more than edges for an arc, as many as edges for a loop
+  bool is_closed = true;           ///< false: an arc that ends on an original open border of the mesh
+};
+
+/// Faces that stay, one flag per face.
+using FaceSet = std::vector<char>;
+
+/// Chains between the kept faces and the discarded ones. Edges that were open in the mesh are no border.
+/// Every vertex lies on at most one chain if `drop_pinches` ran before. Loops start at their lowest vertex;
+/// chains are sorted by first vertex.
+std::vector<BorderChain> border_chains(const PolygonMesh& mesh, const EdgeList& edges, const FaceSet& kept);
+
+/// Removes kept faces until no vertex lies on more than one run of the border: at a pinch the smaller fans
+/// go.
+void drop_pinches(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept);
+
+/// Morphological opening (Roessl 2000; SkinMixer Sec. 6): strips and spikes of kept faces that are one face
+/// wide at the border go.
+void open_face_set(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept);
+
+/// Makes the border run straight along the edge flow: a kept quad with two or more border edges, and a kept
+/// triangle whose removal shortens the border, go, until nothing changes or `max_loss` faces are gone
+/// (junction.md b.0, step 3). Returns the number removed.
+int straighten_border(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept, int max_loss);
+
+/// Groups of kept faces (connected by edges) of fewer than `least_faces` faces that touch the border go:
+/// crumbs that no one would sign.
+void drop_crumbs(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept, int least_faces);
+
+}  // namespace skinforge

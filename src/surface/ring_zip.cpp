@@ -1,0 +1,131 @@
+#include "surface/ring_zip.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/expect.h"
+
+namespace skinforge {
+namespace {
+
+constexpr double kLongEdge = 0.05;     // design: cost = area + 0.05 diagonal^2
+constexpr double kInward = 4.0;        // ours: a triangle facing inwards costs up to nine times its area
+constexpr std::size_t kMaxFill = 256;  // ours: 256^3 / 6 steps are 30 ms
+
+double triangle_cost(const Vec3& p, const Vec3& q, const Vec3& r, const OutwardDirection& outward) {
+  const Vec3 cross = (q - p).cross(r - p);
+  const double area = 0.5 * cross.norm();
+  const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
+  double facing = 1;
+  if (outward && area > 0) {
+    const Vec3 direction = outward((p + q + r) / 3);
+    if (direction.squaredNorm() > 0) facing = cross.normalized().dot(direction.normalized());
+  }
+  return area * (1 + kInward * (1 - facing)) + kLongEdge * longest;
+}
+
+struct Zip {
+  double cost = std::numeric_limits<double>::infinity();
+  std::vector<Triangle> triangles;
+};
+
+// Best zip whose first rung joins a[0] and c[start]; rungs (i, j) join a[i % n] and c[(start + j) % m].
+Zip zip_from(std::span<const Vec3> a, std::span<const Vec3> c, std::size_t start,
+             const OutwardDirection& outward) {
+  const std::size_t n = a.size(), m = c.size(), width = m + 1;
+  std::vector<double> cost((n + 1) * width, std::numeric_limits<double>::infinity());
+  std::vector<char> along_a(cost.size(), 0);
+  cost[0] = 0;
+  for (std::size_t i = 0; i <= n; ++i) {
+    for (std::size_t j = 0; j <= m; ++j) {
+      const double here = cost[i * width + j];
+      const Vec3 &ai = a[i % n], &cj = c[(start + j) % m];
+      if (i < n) {
+        const double next = here + triangle_cost(ai, a[(i + 1) % n], cj, outward);
+        if (next < cost[(i + 1) * width + j])
+          cost[(i + 1) * width + j] = next, along_a[(i + 1) * width + j] = 1;
+      }
+      if (j < m) {
+        const double next = here + triangle_cost(ai, c[(start + j + 1) % m], cj, outward);
+        if (next < cost[i * width + j + 1]) cost[i * width + j + 1] = next, along_a[i * width + j + 1] = 0;
+      }
+    }
+  }
+  Zip zip{cost.back(), {}};
+  const auto in_a = [&](std::size_t i) { return static_cast<std::int32_t>(i % n); };
+  const auto in_c = [&](std::size_t j) { return static_cast<std::int32_t>(n + (start + j) % m); };
+  for (std::size_t i = n, j = m; i + j > 0;) {
+    if (along_a[i * width + j]) {
+      --i;
+      zip.triangles.push_back({in_a(i), in_a(i + 1), in_c(j)});
+    } else {
+      --j;
+      zip.triangles.push_back({in_a(i), in_c(j + 1), in_c(j)});
+    }
+  }
+  std::reverse(zip.triangles.begin(), zip.triangles.end());
+  return zip;
+}
+
+// Starts to try: the vertices of c nearest to a[0], one in four of them at least, never fewer than 3.
+std::vector<std::size_t> candidate_starts(const Vec3& a0, std::span<const Vec3> c) {
+  std::vector<std::size_t> order(c.size());
+  for (std::size_t j = 0; j < c.size(); ++j) order[j] = j;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return (c[i] - a0).squaredNorm() < (c[j] - a0).squaredNorm();
+  });
+  order.resize(std::min(c.size(), std::max<std::size_t>(3, c.size() / 4)));
+  return order;
+}
+
+}  // namespace
+
+std::vector<Triangle> zip_rings(std::span<const Vec3> a, std::span<const Vec3> c,
+                                const OutwardDirection& outward) {
+  SF_EXPECT(a.size() >= 3 && c.size() >= 3);
+  Zip best;
+  for (const std::size_t start : candidate_starts(a[0], c)) {
+    Zip zip = zip_from(a, c, start, outward);
+    if (zip.cost < best.cost) best = std::move(zip);
+  }
+  return best.triangles;
+}
+
+std::vector<Triangle> fill_loop(std::span<const Vec3> loop) {
+  SF_EXPECT(loop.size() >= 3);
+  const std::size_t n = loop.size();
+  std::vector<Triangle> triangles;
+  if (n > kMaxFill) {
+    for (std::size_t i = 1; i + 1 < n; ++i)
+      triangles.push_back({0, static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1)});
+    return triangles;
+  }
+  std::vector<double> cost(n * n, 0);
+  std::vector<std::size_t> apex(n * n, 0);
+  for (std::size_t span = 2; span < n; ++span) {
+    for (std::size_t i = 0; i + span < n; ++i) {
+      const std::size_t k = i + span;
+      double& best = cost[i * n + k];
+      best = std::numeric_limits<double>::infinity();
+      for (std::size_t j = i + 1; j < k; ++j) {
+        const double total =
+            cost[i * n + j] + cost[j * n + k] + triangle_cost(loop[i], loop[j], loop[k], nullptr);
+        if (total < best) best = total, apex[i * n + k] = j;
+      }
+    }
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> open{{0, n - 1}};
+  while (!open.empty()) {
+    const auto [i, k] = open.back();
+    open.pop_back();
+    if (k - i < 2) continue;
+    const std::size_t j = apex[i * n + k];
+    triangles.push_back(
+        {static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), static_cast<std::int32_t>(k)});
+    open.push_back({i, j});
+    open.push_back({j, k});
+  }
+  return triangles;
+}
+
+}  // namespace skinforge
