@@ -12,7 +12,7 @@ namespace skinforge {
 std::vector<Vec3> apply_morphs(std::span<const Vec3> positions, std::span<const MorphTarget> morphs,
                                std::span<const double> morph_weights);
 
-/// Linear blend skinning (SkinMixer Sec. 1.1; ETH Eq. 3): v' = (sum of w_j * palette_j) v.
+/// Linear blend skinning (ETH Eq. 3): v' = (sum of w_j * palette_j) v.
 /// `positions`: #V, bind pose, metres (morphed first where the pose has morph weights). `weights`: one row a
 /// vertex; rows are used as they are, not normalised; a vertex without influences stays. `palette`: one
 /// matrix a joint, as `skinning_palette` gives. Linear in influences, parallel over vertices, same bits for
