@@ -19,11 +19,12 @@ std::vector<Affine3> model_from_joint(const Skeleton& skeleton, std::span<const 
 /// model_from_joint rotations only: the product of the local rotations down from the root. Linear.
 std::vector<Quat> global_rotations(const Skeleton& skeleton, std::span<const Transform> pose);
 
-/// The matrices that skinning reads, model_from_joint * joint_from_model: mesh points in the bind pose -> posed.
+/// The matrices that skinning reads, model_from_joint * joint_from_model: mesh points in the bind pose ->
+/// posed.
 std::vector<Affine3> skinning_palette(const Skeleton& skeleton, std::span<const Transform> pose);
 
-/// Spreads translations given at some joints over all others: harmonic over the joint tree seen as a graph, the given
-/// joints fixed (Sec. 4.1, smoothing to convergence, solved at once). No given joint: all zero.
+/// Spreads translations given at some joints over all others: harmonic over the joint tree seen as a graph,
+/// the given joints fixed (Sec. 4.1, smoothing to convergence, solved at once). No given joint: all zero.
 std::vector<Vec3> spread_translations(const Skeleton& skeleton,
                                       std::span<const std::pair<JointId, Vec3>> given);
 
