@@ -1,0 +1,200 @@
+#include "surface/assemble.h"
+
+#include <algorithm>
+#include <map>
+
+#include "geometry/quad_pairing.h"
+
+namespace skinforge {
+namespace {
+
+constexpr double kJunctionQuadScore =
+    0.35;  // ours: lower than for recovery, because nobody modelled these triangles
+
+class Assembler {
+ public:
+  Assembler(std::span<const PreservedSource> sources, std::span<const std::int32_t> first_material)
+      : sources_(sources), first_material_(first_material) {
+    result_.mesh.face_begin = {0};
+    std::size_t uv_sets = 0;
+    bool has_colors = false;
+    for (const PreservedSource& source : sources) {
+      uv_sets = std::max(uv_sets, source.mesh->uvs.size());
+      has_colors |= !source.mesh->colors.empty();
+      vertex_names_.emplace_back(source.mesh->vertex_count());
+    }
+    result_.mesh.uvs.resize(uv_sets);
+    has_colors_ = has_colors;
+  }
+
+  void add_source(SourceId id) {
+    const PolygonMesh& mesh = *sources_[id.index()].mesh;
+    const auto first_part = static_cast<std::int32_t>(result_.mesh.parts.size());
+    result_.first_part.push_back(PartId(first_part));
+    result_.mesh.parts.insert(result_.mesh.parts.end(), mesh.parts.begin(), mesh.parts.end());
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      if (!sources_[id.index()].selection.kept[f]) continue;
+      const std::size_t first = mesh.first_corner(FaceId(f));
+      for (std::size_t c = first; c < first + mesh.face(FaceId(f)).size(); ++c)
+        add_corner(mesh, c, preserved_vertex(id, mesh.corners[c]));
+      const MaterialId material = mesh.face_material[f];
+      close_face(material.is_valid() ? MaterialId(material.value + first_material_[id.index()]) : material,
+                 PartId(mesh.face_part[f].value + first_part), {id, FaceId(f), -1});
+    }
+  }
+
+  void add_junction(const Junction& junction, std::int32_t site) {
+    if (junction.patch.triangles.empty()) {
+      result_.junction_part.emplace_back();
+      return;
+    }
+    const PartId part(static_cast<std::int32_t>(result_.mesh.parts.size()));
+    result_.junction_part.push_back(part);
+    result_.mesh.parts.push_back({"junction" + std::to_string(site + 1), 0, true, false});
+    const std::vector<VertexId> names = junction_vertices(junction, site);
+    const PolygonMesh polygons = paired_patch(junction.patch);
+    for (std::size_t f = 0; f < polygons.face_count(); ++f) {
+      for (const VertexId v : polygons.face(FaceId(f))) add_plain_corner(names[v.index()]);
+      close_face(MaterialId(), part, {SourceId(), FaceId(), site});
+    }
+  }
+
+  JoinedSurface take() { return std::move(result_); }
+
+ private:
+  VertexId preserved_vertex(SourceId id, VertexId v) {
+    VertexId& name = vertex_names_[id.index()][v.index()];
+    if (!name.is_valid()) name = new_vertex(sources_[id.index()].mesh->positions[v.index()], {id, v, -1});
+    return name;
+  }
+
+  VertexId new_vertex(const Vec3& position, const ResultVertex& origin) {
+    result_.mesh.positions.push_back(position);
+    result_.vertices.push_back(origin);
+    return VertexId(result_.vertices.size() - 1);
+  }
+
+  void add_corner(const PolygonMesh& mesh, std::size_t c, VertexId name) {
+    PolygonMesh& out = result_.mesh;
+    out.corners.push_back(name);
+    out.normals.push_back(mesh.normals[c]);
+    for (std::size_t s = 0; s < out.uvs.size(); ++s)
+      out.uvs[s].push_back(s < mesh.uvs.size() ? mesh.uvs[s][c] : Vec2(0, 0));
+    if (has_colors_) out.colors.push_back(mesh.colors.empty() ? Vec4(Vec4::Ones()) : mesh.colors[c]);
+  }
+
+  void add_plain_corner(VertexId name) {
+    PolygonMesh& out = result_.mesh;
+    out.corners.push_back(name);
+    out.normals.push_back(Vec3::Zero());
+    for (auto& set : out.uvs) set.push_back(Vec2::Zero());
+    if (has_colors_) out.colors.push_back(Vec4::Ones());
+  }
+
+  void close_face(MaterialId material, PartId part, const ResultFace& origin) {
+    result_.mesh.face_begin.push_back(static_cast<std::int32_t>(result_.mesh.corner_count()));
+    result_.mesh.face_material.push_back(material);
+    result_.mesh.face_part.push_back(part);
+    result_.faces.push_back(origin);
+  }
+
+  std::vector<VertexId> junction_vertices(const Junction& junction, std::int32_t site) {
+    std::vector<VertexId> names;
+    for (const JunctionLoop& loop : junction.loops)
+      for (const VertexId v : loop.vertices) {
+        names.push_back(preserved_vertex(loop.source, v));
+        result_.vertices[names.back().index()].site = site;
+      }
+    for (std::size_t v = junction.patch.fixed; v < junction.patch.positions.size(); ++v)
+      names.push_back(new_vertex(junction.patch.positions[v], {SourceId(), VertexId(), site}));
+    return names;
+  }
+
+  static PolygonMesh paired_patch(const TrianglePatch& patch) {
+    PolygonMesh mesh;
+    mesh.positions = patch.positions;
+    mesh.parts = {{"junction", 0, false, false}};
+    mesh.face_begin = {0};
+    for (const Triangle& t : patch.triangles) {
+      for (const std::int32_t v : t) mesh.corners.emplace_back(v);
+      mesh.face_begin.push_back(static_cast<std::int32_t>(mesh.corners.size()));
+      mesh.face_material.emplace_back();
+      mesh.face_part.emplace_back(0);
+    }
+    mesh.normals.assign(mesh.corner_count(), Vec3::Zero());
+    return recover_quads(mesh, {.min_score = kJunctionQuadScore});
+  }
+
+  std::span<const PreservedSource> sources_;
+  std::span<const std::int32_t> first_material_;
+  JoinedSurface result_;
+  std::vector<std::vector<VertexId>> vertex_names_;
+  bool has_colors_ = false;
+};
+
+// Whether most preserved corners at the junction's border carry the normal of their own face.
+bool neighbours_are_flat(const JoinedSurface& result, std::int32_t site) {
+  constexpr double kFlat = 0.999;  // ours: 2.6 degrees
+  int flat = 0, all = 0;
+  const PolygonMesh& mesh = result.mesh;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    if (result.faces[f].site >= 0) continue;
+    const Vec3 normal = area_normal(mesh, FaceId(f)).normalized();
+    const std::size_t first = mesh.first_corner(FaceId(f));
+    for (std::size_t k = 0; k < mesh.face(FaceId(f)).size(); ++k) {
+      if (result.vertices[mesh.corners[first + k].index()].site != site) continue;
+      ++all;
+      flat += mesh.normals[first + k].dot(normal) > kFlat;
+    }
+  }
+  return 2 * flat > all;
+}
+
+// Smooth normals: at border vertices those of the preserved corners, elsewhere the mean of the junction's
+// faces.
+void shade_junction(JoinedSurface& result, std::int32_t site) {
+  PolygonMesh& mesh = result.mesh;
+  const bool flat = neighbours_are_flat(result, site);
+  std::map<VertexId, Vec3> preserved, made;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const bool in_junction = result.faces[f].site == site;
+    const Vec3 area = area_normal(mesh, FaceId(f));
+    const std::size_t first = mesh.first_corner(FaceId(f));
+    for (std::size_t k = 0; k < mesh.face(FaceId(f)).size(); ++k) {
+      const VertexId v = mesh.corners[first + k];
+      if (result.vertices[v.index()].site != site) continue;
+      if (in_junction)
+        made.try_emplace(v, Vec3::Zero()).first->second += area;
+      else
+        preserved.try_emplace(v, Vec3::Zero()).first->second += mesh.normals[first + k] * area.norm();
+    }
+  }
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    if (result.faces[f].site != site) continue;
+    const Vec3 own = area_normal(mesh, FaceId(f)).normalized();
+    const std::size_t first = mesh.first_corner(FaceId(f));
+    for (std::size_t k = 0; k < mesh.face(FaceId(f)).size(); ++k) {
+      const VertexId v = mesh.corners[first + k];
+      const auto border = preserved.find(v);
+      const Vec3 smooth =
+          border != preserved.end() && border->second.norm() > 0 ? border->second : made.at(v);
+      mesh.normals[first + k] = flat || !(smooth.norm() > 0) ? own : Vec3(smooth.normalized());
+    }
+  }
+}
+
+}  // namespace
+
+JoinedSurface assemble_surface(std::span<const PreservedSource> sources, std::span<const Junction> junctions,
+                               std::span<const std::int32_t> first_material) {
+  Assembler assembler(sources, first_material);
+  for (std::size_t s = 0; s < sources.size(); ++s) assembler.add_source(SourceId(s));
+  for (std::size_t j = 0; j < junctions.size(); ++j)
+    assembler.add_junction(junctions[j], static_cast<std::int32_t>(j));
+  JoinedSurface result = assembler.take();
+  for (std::size_t j = 0; j < junctions.size(); ++j)
+    if (!junctions[j].patch.triangles.empty()) shade_junction(result, static_cast<std::int32_t>(j));
+  return result;
+}
+
+}  // namespace skinforge

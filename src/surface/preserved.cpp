@@ -1,0 +1,152 @@
+#include "surface/preserved.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace skinforge {
+namespace {
+
+Eigen::AlignedBox3d box_of(const Lattice& lattice) {
+  return {lattice.origin, lattice.point(lattice.size[0] - 1, lattice.size[1] - 1, lattice.size[2] - 1)};
+}
+
+// Gives discarded faces without a site the site of a discarded neighbour, spreading from face to face.
+void spread_sites(const EdgeList& edges, SourceSelection& selection) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Edge& edge : edges.edges) {
+      std::int32_t site = -1;
+      for (const std::int32_t corner : edge.half_edges)
+        site = std::max(site, selection.face_site[edges.face_of_corner[corner].index()]);
+      if (site < 0) continue;
+      for (const std::int32_t corner : edge.half_edges) {
+        const std::size_t f = edges.face_of_corner[corner].index();
+        if (!selection.kept[f] && selection.face_site[f] < 0) selection.face_site[f] = site, changed = true;
+      }
+    }
+  }
+}
+
+int border_edge_count(const PolygonMesh& mesh, const EdgeList& edges, const FaceSet& kept) {
+  int count = 0;
+  for (const BorderChain& chain : border_chains(mesh, edges, kept))
+    count += static_cast<int>(chain.vertices.size());
+  return count;
+}
+
+// The site that most of the discarded faces along a chain belong to.
+std::int32_t site_of_chain(const EdgeList& edges, const SourceSelection& selection,
+                           const std::map<std::pair<VertexId, VertexId>, std::int32_t>& edge_index,
+                           const BorderChain& chain) {
+  std::map<std::int32_t, int> votes;
+  const std::size_t n = chain.vertices.size(), count = chain.is_closed ? n : n - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto key = std::minmax(chain.vertices[i], chain.vertices[(i + 1) % n]);
+    for (const std::int32_t corner : edges.edges[edge_index.at(key)].half_edges) {
+      const std::size_t f = edges.face_of_corner[corner].index();
+      if (!selection.kept[f]) ++votes[selection.face_site[f]];
+    }
+  }
+  std::int32_t best = -1;
+  int most = 0;
+  for (const auto& [site, number] : votes)
+    if (number > most) most = number, best = site;
+  return best;
+}
+
+// Neighbours of a border vertex on kept faces that are not on the border themselves.
+std::vector<Vec3> inward_neighbours(const PolygonMesh& mesh, const SourceSelection& selection,
+                                    const EdgeList& edges,
+                                    const std::vector<std::vector<std::int32_t>>& edges_of_vertex,
+                                    const std::set<VertexId>& border, VertexId v) {
+  std::vector<Vec3> neighbours;
+  for (const std::int32_t e : edges_of_vertex[v.index()]) {
+    const Edge& edge = edges.edges[e];
+    const VertexId other = edge.vertices[0] == v ? edge.vertices[1] : edge.vertices[0];
+    const bool is_kept = std::any_of(
+        edge.half_edges.begin(), edge.half_edges.end(),
+        [&](std::int32_t corner) { return selection.kept[edges.face_of_corner[corner].index()] != 0; });
+    if (is_kept && !border.contains(other)) neighbours.push_back(mesh.positions[other.index()]);
+  }
+  return neighbours;
+}
+
+}  // namespace
+
+void discard_moved_faces(std::span<PreservedSource> sources, std::span<const SourceId> participants,
+                         const std::vector<FusionSolid>& solids, const SiteField& field, std::size_t site,
+                         const PreserveOptions& options) {
+  if (field.is_empty()) return;
+  const Eigen::AlignedBox3d box = box_of(field.distance.lattice);
+  const double tolerance = options.moved_voxels * field.voxel();
+  for (const SourceId id : participants) {
+    PreservedSource& source = sources[id.index()];
+    const PolygonMesh& mesh = *source.mesh;
+    std::vector<signed char> moved(mesh.vertex_count(), -1);  // not asked yet
+    const auto is_moved = [&](VertexId v) {
+      signed char& answer = moved[v.index()];
+      const Vec3& p = mesh.positions[v.index()];
+      if (answer < 0) answer = box.contains(p) && std::abs(blended_distance(solids, field, p)) > tolerance;
+      return answer != 0;
+    };
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      if (!source.selection.kept[f] || source.selection.face_role[f] == ComponentRole::KeptWhole) continue;
+      const auto face = mesh.face(FaceId(f));
+      if (std::none_of(face.begin(), face.end(), is_moved)) continue;
+      source.selection.kept[f] = 0;
+      source.selection.face_site[f] = static_cast<std::int32_t>(site);
+    }
+  }
+}
+
+void clean_borders(PreservedSource& source, const PreserveOptions& options) {
+  const PolygonMesh& mesh = *source.mesh;
+  SourceSelection& selection = source.selection;
+  const EdgeList edges = build_edges(mesh);
+  open_face_set(mesh, edges, selection.kept);
+  drop_crumbs(mesh, edges, selection.kept, options.least_faces);
+  const int border = border_edge_count(mesh, edges, selection.kept);
+  const int allowed =
+      std::max(options.straighten_least, static_cast<int>(std::lround(options.straighten_share * border)));
+  straighten_border(mesh, edges, selection.kept, allowed);
+  drop_pinches(mesh, edges, selection.kept);
+  drop_crumbs(mesh, edges, selection.kept, options.least_faces);
+  drop_pinches(mesh, edges, selection.kept);
+  spread_sites(edges, selection);
+}
+
+std::vector<JunctionLoop> loops_of_site(const PreservedSource& source, SourceId id, std::size_t site,
+                                        bool is_host, int& arcs) {
+  const PolygonMesh& mesh = *source.mesh;
+  const EdgeList edges = build_edges(mesh);
+  std::map<std::pair<VertexId, VertexId>, std::int32_t> edge_index;
+  std::vector<std::vector<std::int32_t>> edges_of_vertex(mesh.vertex_count());
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+    const auto& [a, b] = edges.edges[e].vertices;
+    edge_index[{a, b}] = static_cast<std::int32_t>(e);
+    edges_of_vertex[a.index()].push_back(static_cast<std::int32_t>(e));
+    edges_of_vertex[b.index()].push_back(static_cast<std::int32_t>(e));
+  }
+  std::vector<JunctionLoop> loops;
+  for (const BorderChain& chain : border_chains(mesh, edges, source.selection.kept)) {
+    if (site_of_chain(edges, source.selection, edge_index, chain) != static_cast<std::int32_t>(site))
+      continue;
+    if (!chain.is_closed || chain.vertices.size() < 3) {
+      ++arcs;
+      continue;
+    }
+    JunctionLoop loop{id, is_host, chain.vertices, {}, {}};
+    const std::set<VertexId> border(chain.vertices.begin(), chain.vertices.end());
+    for (const VertexId v : chain.vertices) {
+      loop.positions.push_back(mesh.positions[v.index()]);
+      loop.inward.push_back(inward_neighbours(mesh, source.selection, edges, edges_of_vertex, border, v));
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+}  // namespace skinforge

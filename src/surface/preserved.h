@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/id.h"
+#include "surface/junction.h"
+#include "surface/selection.h"
+
+namespace skinforge {
+
+/// One placed source with what stays of it. Indexed by SourceId.
+struct PreservedSource {
+  const PolygonMesh* mesh = nullptr;  ///< placed
+  SourceSelection selection;          ///< `kept` and `face_site` are worked on
+};
+
+struct PreserveOptions {
+  double moved_voxels =
+      0.05;  ///< junction.md a.3: a kept face goes where the blended surface leaves it by this much
+  int least_faces = 4;  ///< ours: smaller groups of kept faces at a border are crumbs
+  double straighten_share =
+      0.15;  ///< junction.md b.0: at most this share of a source's border faces is given up ...
+  int straighten_least = 6;  ///< ... but always up to this many faces per border
+
+  template <class Archive>
+  friend void fields(Archive& a, PreserveOptions& o) {
+    a(o.moved_voxels, o.least_faces, o.straighten_share, o.straighten_least);
+  }
+};
+
+/// Discards kept faces of the sources `solids[i]` <-> `sources[participants[i]]` whose vertices do not lie on
+/// the blended surface of the site: inside the other part, or in a fillet.
+void discard_moved_faces(std::span<PreservedSource> sources, std::span<const SourceId> participants,
+                         const std::vector<FusionSolid>& solids, const SiteField& field, std::size_t site,
+                         const PreserveOptions& options);
+
+/// Makes the borders of every source clean: opening, crumbs, straightening, pinches (SkinMixer Sec. 6,
+/// junction.md b.0). Each face discarded here goes to the site of its discarded neighbours.
+void clean_borders(PreservedSource& source, const PreserveOptions& options);
+
+/// The closed borders that belong to `site`. Arcs that end on an original open border are counted in `arcs`
+/// and left open.
+std::vector<JunctionLoop> loops_of_site(const PreservedSource& source, SourceId id, std::size_t site,
+                                        bool is_host, int& arcs);
+
+}  // namespace skinforge
