@@ -23,10 +23,10 @@ struct RayHit {
   double distance = 0;
 };
 
-/// One hierarchy over a triangle soup for closest points, generalised winding numbers and rays. Immutable after
-/// construction, so queries may run in parallel. The soup may be open, non-manifold or overlapping; degenerate
-/// triangles are kept (closest point works on them, they add nothing to the winding number). Equal inputs give equal
-/// bits. Building costs O(n log n), a query about O(log n).
+/// One hierarchy over a triangle soup for closest points, generalised winding numbers and rays. Immutable
+/// after construction, so queries may run in parallel. The soup may be open, non-manifold or overlapping;
+/// degenerate triangles are kept (closest point works on them, they add nothing to the winding number). Equal
+/// inputs give equal bits. Building costs O(n log n), a query about O(log n).
 class TriangleBvh {
  public:
   /// `triangles`: corner indices into `positions`. Both are copied. Empty is allowed: nothing is ever found.
@@ -38,11 +38,13 @@ class TriangleBvh {
   /// Nearest point within `limit` (metres). Ties go to the lowest triangle index.
   ClosestPoint closest(const Vec3& query, double limit = 1e300) const;
 
-  /// Generalised winding number (Jacobson 2013) by the hierarchy of Barill 2018 (dipole expansion of order 2, accuracy
-  /// parameter 2): about 1 inside a closed outward-oriented surface, 0 outside, in between near holes.
+  /// Generalised winding number (Jacobson 2013) by the hierarchy of Barill 2018 (dipole expansion of order 2,
+  /// accuracy parameter 2): about 1 inside a closed outward-oriented surface, 0 outside, in between near
+  /// holes.
   double winding_number(const Vec3& query) const;
 
-  /// First triangle hit by origin + t * direction, t in (0, limit). `direction` need not be unit; distance is t.
+  /// First triangle hit by origin + t * direction, t in (0, limit). `direction` need not be unit; distance is
+  /// t.
   RayHit first_hit(const Vec3& origin, const Vec3& direction, double limit = 1e300) const;
 
   /// Indices of all triangles whose bounding boxes overlap the box [low, high], rising.

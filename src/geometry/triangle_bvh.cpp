@@ -1,0 +1,271 @@
+#include "geometry/triangle_bvh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/expect.h"
+#include "geometry/box_tree.h"
+#include "geometry/triangle_math.h"
+#include "geometry/winding_expansion.h"
+
+namespace skinforge {
+namespace {
+
+constexpr int kLeafSize = 4;  // ours: 2, 4 and 8 measured, see triangle_bvh.md
+constexpr double kHuge = std::numeric_limits<double>::max();
+
+Box3 box_of(const TriangleCorners& t) {
+  Box3 box(t[0]);
+  box.extend(t[1]);
+  box.extend(t[2]);
+  return box;
+}
+
+// A child to visit and the distance at which it begins.
+struct Visit {
+  double at = 0;
+  int lane = 0;
+};
+
+// The present children that begin no farther than `limit`, nearest first.
+struct VisitList {
+  std::array<Visit, BoxTree::kWidth> visits;
+  int count = 0;
+
+  VisitList(const BoxTree::Node& node, const BoxTree::Lanes& at, double limit) {
+    for (int lane = 0; lane < BoxTree::kWidth; ++lane) {
+      if (!(at[lane] <= limit) || node.children[lane].is_none()) continue;
+      int place = count++;
+      for (; place > 0 && visits[place - 1].at > at[lane]; --place) visits[place] = visits[place - 1];
+      visits[place] = {at[lane], lane};
+    }
+  }
+};
+
+// Nodes still to visit; the depth of the tree bounds it.
+class NodeStack {
+ public:
+  struct Entry {
+    double at;
+    std::int32_t node;
+  };
+  void push(double at, std::int32_t node) { entries_[count_++] = {at, node}; }
+  Entry pop() { return entries_[--count_]; }
+  bool is_empty() const { return count_ == 0; }
+
+ private:
+  std::array<Entry, BoxTree::kStackSize> entries_;
+  int count_ = 0;
+};
+
+struct Ray {
+  Vec3 origin, direction, inverse;
+
+  Ray(const Vec3& o, const Vec3& d) : origin(o), direction(d) {
+    constexpr double kSteep = 1e200;  // for a zero component: larger than any quotient, still finite times 0
+    for (int axis = 0; axis < 3; ++axis)
+      inverse[axis] = std::abs(d[axis]) > 1 / kSteep ? 1 / d[axis] : std::copysign(kSteep, d[axis]);
+  }
+};
+
+// Where the ray enters each child's box; huge where it misses.
+BoxTree::Lanes entries(const BoxTree::Node& node, const Ray& ray) {
+  constexpr double kSlack = 1 + 8 * std::numeric_limits<double>::epsilon();  // roundings of the two products
+  BoxTree::Lanes enter = BoxTree::Lanes::Zero(), leave = BoxTree::Lanes::Constant(kHuge);
+  for (int axis = 0; axis < 3; ++axis) {
+    const BoxTree::Lanes a = (node.low[axis] - ray.origin[axis]) * ray.inverse[axis];
+    const BoxTree::Lanes b = (node.high[axis] - ray.origin[axis]) * ray.inverse[axis];
+    enter = enter.max(a.min(b));
+    leave = leave.min(a.max(b));
+  }
+  return (enter <= leave * kSlack).select(enter, std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+
+struct TriangleBvh::Impl {
+  BoxTree tree;
+  std::vector<TriangleCorners> corners;      // in the order of the tree's leaves
+  std::vector<WindingExpansion> expansions;  // one per node
+
+  Impl(std::span<const Vec3> positions, std::span<const std::array<std::int32_t, 3>> triangles) {
+    std::vector<TriangleCorners> given;
+    given.reserve(triangles.size());
+    for (const auto& t : triangles) {
+      for (const std::int32_t v : t) SF_EXPECT(v >= 0 && static_cast<std::size_t>(v) < positions.size());
+      given.push_back({positions[t[0]], positions[t[1]], positions[t[2]]});
+    }
+    std::vector<Box3> boxes;
+    boxes.reserve(given.size());
+    for (const TriangleCorners& t : given) boxes.push_back(box_of(t));
+    tree = build_box_tree(boxes, kLeafSize);
+    corners.reserve(given.size());
+    for (const std::int32_t i : tree.order) corners.push_back(given[i]);
+    expand();
+  }
+
+  // Moments of every cluster from the leaves up; children stand behind their parents.
+  void expand() {
+    std::vector<WindingMoments> moments(tree.nodes.size());
+    expansions.resize(tree.nodes.size());
+    for (std::size_t n = tree.nodes.size(); n-- > 0;) {
+      std::vector<WindingMoments> parts;
+      for (int lane = 0; lane < BoxTree::kWidth; ++lane) {
+        const BoxTree::Child child = tree.nodes[n].children[lane];
+        if (child.is_none()) continue;
+        parts.push_back(child.is_leaf() ? leaf_moments(child) : moments[child.first]);
+        expansions[n].set(lane, parts.back(), radius(child, parts.back().centre));
+      }
+      moments[n] = WindingMoments::sum(parts);
+    }
+  }
+
+  WindingMoments leaf_moments(BoxTree::Child leaf) const {
+    std::vector<WindingMoments> parts;
+    for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
+      parts.push_back(WindingMoments::of(corners[i]));
+    return WindingMoments::sum(parts);
+  }
+
+  double radius(BoxTree::Child child, const Vec3& centre) const {
+    const std::int32_t begin = child.is_leaf() ? child.first : tree.nodes[child.first].begin;
+    const std::int32_t end = child.is_leaf() ? child.first + child.count : tree.nodes[child.first].end;
+    double largest2 = 0;
+    for (std::int32_t i = begin; i < end; ++i)
+      for (const Vec3& corner : corners[i]) largest2 = std::max(largest2, (corner - centre).squaredNorm());
+    return std::sqrt(largest2);
+  }
+
+  // Depth-first walk, nearest child first. `children_at(node)`: where each child begins; `visit_leaf(child,
+  // limit)` looks at the leaf's triangles and returns the new limit; children that begin beyond the limit are
+  // passed over.
+  template <class ChildrenAt, class VisitLeaf>
+  void nearest_first(double limit, const ChildrenAt& children_at, const VisitLeaf& visit_leaf) const {
+    if (tree.nodes.empty()) return;
+    NodeStack stack;
+    stack.push(0, 0);
+    while (!stack.is_empty()) {
+      const auto [at, id] = stack.pop();
+      if (at > limit) continue;
+      const BoxTree::Node& node = tree.nodes[id];
+      const VisitList list(node, children_at(node), limit);
+      for (int i = 0; i < list.count; ++i) {
+        const BoxTree::Child child = node.children[list.visits[i].lane];
+        if (child.is_leaf() && list.visits[i].at <= limit) limit = visit_leaf(child, limit);
+      }
+      for (int i = list.count; i-- > 0;) {
+        const BoxTree::Child child = node.children[list.visits[i].lane];
+        if (!child.is_leaf()) stack.push(list.visits[i].at, child.first);
+      }
+    }
+  }
+
+  double exact_solid_angle(BoxTree::Child leaf, const Vec3& query) const {
+    double sum = 0;
+    for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
+      if (!is_degenerate(corners[i])) sum += solid_angle(query, corners[i]);
+    return sum;
+  }
+};
+
+TriangleBvh::TriangleBvh(std::span<const Vec3> positions,
+                         std::span<const std::array<std::int32_t, 3>> triangles)
+    : impl_(std::make_unique<Impl>(positions, triangles)) {}
+TriangleBvh::~TriangleBvh() = default;
+TriangleBvh::TriangleBvh(TriangleBvh&&) noexcept = default;
+TriangleBvh& TriangleBvh::operator=(TriangleBvh&&) noexcept = default;
+
+ClosestPoint TriangleBvh::closest(const Vec3& query, double limit) const {
+  ClosestPoint best;
+  const auto visit_leaf = [&](BoxTree::Child leaf, double limit2) {
+    for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+      const std::int32_t triangle = impl_->tree.order[i];
+      const Vec3 barycentric = closest_barycentric(query, impl_->corners[i]);
+      const Vec3 point = interpolate(impl_->corners[i], barycentric);
+      const double distance2 = (query - point).squaredNorm();
+      const bool nearer = distance2 < limit2 || (distance2 == limit2 && best.triangle < 0);
+      const bool tie = distance2 == limit2 && triangle < best.triangle;
+      if (!nearer && !tie) continue;
+      limit2 = distance2;
+      best.triangle = triangle;
+      best.barycentric = barycentric;
+      best.point = point;
+    }
+    return limit2;
+  };
+  impl_->nearest_first(
+      std::min(limit * limit, kHuge),
+      [&](const BoxTree::Node& node) { return BoxTree::distances2(node, query); }, visit_leaf);
+  if (best.triangle >= 0) best.distance = (query - best.point).norm();
+  return best;
+}
+
+double TriangleBvh::winding_number(const Vec3& query) const {
+  if (impl_->tree.nodes.empty()) return 0;
+  double sum = 0;
+  NodeStack stack;
+  stack.push(0, 0);
+  while (!stack.is_empty()) {
+    const std::int32_t id = stack.pop().node;
+    const BoxTree::Node& node = impl_->tree.nodes[id];
+    const WindingExpansion& expansion = impl_->expansions[id];
+    const auto [far_field, distance2] = expansion.at(query);
+    for (int lane = 0; lane < BoxTree::kWidth; ++lane) {
+      const BoxTree::Child child = node.children[lane];
+      if (child.is_none()) continue;
+      if (distance2[lane] > expansion.far2[lane])
+        sum += far_field[lane];
+      else if (child.is_leaf())
+        sum += impl_->exact_solid_angle(child, query);
+      else
+        stack.push(0, child.first);
+    }
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
+RayHit TriangleBvh::first_hit(const Vec3& origin, const Vec3& direction, double limit) const {
+  RayHit best;
+  const Ray ray(origin, direction);
+  const auto visit_leaf = [&](BoxTree::Child leaf, double farthest) {
+    for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+      const std::int32_t triangle = impl_->tree.order[i];
+      const auto t = ray_parameter(origin, direction, impl_->corners[i]);
+      if (!t || *t <= 0 || *t >= limit) continue;
+      if (*t > farthest || (*t == farthest && triangle > best.triangle)) continue;
+      farthest = *t;
+      best = {triangle, *t};
+    }
+    return farthest;
+  };
+  impl_->nearest_first(
+      limit, [&](const BoxTree::Node& node) { return entries(node, ray); }, visit_leaf);
+  return best;
+}
+
+std::vector<std::int32_t> TriangleBvh::overlapping(const Vec3& low, const Vec3& high) const {
+  std::vector<std::int32_t> found;
+  const Box3 wanted(low, high);
+  std::vector<std::int32_t> open;
+  if (!impl_->tree.nodes.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const BoxTree::Node& node = impl_->tree.nodes[open.back()];
+    open.pop_back();
+    for (int lane = 0; lane < BoxTree::kWidth; ++lane) {
+      const BoxTree::Child child = node.children[lane];
+      bool meets = !child.is_none();
+      for (int axis = 0; axis < 3; ++axis)
+        meets = meets && node.low[axis][lane] <= high[axis] && node.high[axis][lane] >= low[axis];
+      if (!meets) continue;
+      if (!child.is_leaf()) open.push_back(child.first);
+      for (std::int32_t i = child.first; i < child.first + child.count; ++i)
+        if (box_of(impl_->corners[i]).intersects(wanted)) found.push_back(impl_->tree.order[i]);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace skinforge
