@@ -11,16 +11,17 @@ namespace skinforge {
 
 /// One undirected edge with all its faces: inputs may be non-manifold, so this is a list, not a half-edge.
 struct Edge {
-  std::array<VertexId, 2> vertices;      ///< lower id first
-  std::vector<std::int32_t> half_edges;  ///< corner index c of each face that runs along it: from corner c to the next
+  std::array<VertexId, 2> vertices;  ///< lower id first
+  std::vector<std::int32_t>
+      half_edges;  ///< corner index c of each face that runs along it: from corner c to the next
 };
 
 /// Edges of a polygon mesh, sorted by their vertex pair.
 struct EdgeList {
   std::vector<Edge> edges;
-  std::vector<std::int32_t> edge_of_corner;    ///< #C: the edge from corner c to the next corner of its face
-  std::vector<FaceId> face_of_corner;          ///< #C
-  std::vector<std::int32_t> next_corner;       ///< #C: the next corner in the same face
+  std::vector<std::int32_t> edge_of_corner;  ///< #C: the edge from corner c to the next corner of its face
+  std::vector<FaceId> face_of_corner;        ///< #C
+  std::vector<std::int32_t> next_corner;     ///< #C: the next corner in the same face
 };
 EdgeList build_edges(const PolygonMesh& mesh);
 
@@ -32,8 +33,8 @@ struct VertexGraph {
 };
 VertexGraph build_vertex_graph(const PolygonMesh& mesh);
 
-/// Connected components of the faces (two faces are connected when they share a vertex): component per vertex and per
-/// face, numbered by their lowest face; vertices of no face get -1.
+/// Connected components of the faces (two faces are connected when they share a vertex): component per vertex
+/// and per face, numbered by their lowest face; vertices of no face get -1.
 struct Components {
   std::vector<std::int32_t> of_vertex;
   std::vector<std::int32_t> of_face;
