@@ -17,7 +17,9 @@ struct Lattice {
   std::array<std::int32_t, 3> size = {0, 0, 0};  ///< points along x, y, z
 
   std::size_t count() const { return static_cast<std::size_t>(size[0]) * size[1] * size[2]; }
-  std::size_t index(int i, int j, int k) const { return (static_cast<std::size_t>(k) * size[1] + j) * size[0] + i; }
+  std::size_t index(int i, int j, int k) const {
+    return (static_cast<std::size_t>(k) * size[1] + j) * size[0] + i;
+  }
   Vec3 point(int i, int j, int k) const { return origin + voxel * Vec3(i, j, k); }
 
   template <class Archive>
@@ -31,7 +33,8 @@ struct DistanceField {
   Lattice lattice;
   std::vector<float> values;  ///< metres
 
-  /// Trilinear value at a model-space point; points outside the lattice take the value of the nearest lattice point.
+  /// Trilinear value at a model-space point; points outside the lattice take the value of the nearest lattice
+  /// point.
   double at(const Vec3& p) const;
   /// Gradient of the trilinear interpolant by central differences of half a voxel.
   Vec3 gradient(const Vec3& p) const;
@@ -48,12 +51,12 @@ struct IsoSurface {
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< quads split along the shorter diagonal
 };
 
-/// Zero surface of the field by OpenVDB's dual contouring (adaptivity 0). Closed inside the lattice; open where it meets
-/// the lattice's faces. Same bits for any number of threads.
+/// Zero surface of the field by OpenVDB's dual contouring (adaptivity 0). Closed inside the lattice; open
+/// where it meets the lattice's faces. Same bits for any number of threads.
 IsoSurface extract_iso_surface(const DistanceField& field);
 
-/// The field as a `.vdb` file that other tools open: one FloatGrid "distance" of class level set, with its transform.
-/// No dates, hosts or random ids in the bytes: equal fields give equal files.
+/// The field as a `.vdb` file that other tools open: one FloatGrid "distance" of class level set, with its
+/// transform. No dates, hosts or random ids in the bytes: equal fields give equal files.
 Bytes to_vdb(const DistanceField& field);
 
 }  // namespace skinforge
