@@ -88,6 +88,7 @@ BoxTree::Lanes entries(const BoxTree::Node& node, const Ray& ray) {
 struct TriangleBvh::Impl {
   BoxTree tree;
   std::vector<TriangleCorners> corners;      // in the order of the tree's leaves
+  std::vector<std::uint8_t> degenerate;      // likewise: 1 for a triangle without a plane
   std::vector<WindingExpansion> expansions;  // one per node
 
   Impl(std::span<const Vec3> positions, std::span<const std::array<std::int32_t, 3>> triangles) {
@@ -103,7 +104,13 @@ struct TriangleBvh::Impl {
     tree = build_box_tree(boxes, kLeafSize);
     corners.reserve(given.size());
     for (const std::int32_t i : tree.order) corners.push_back(given[i]);
+    for (const TriangleCorners& t : corners) degenerate.push_back(is_degenerate(t) ? 1 : 0);
     expand();
+  }
+
+  Vec3 closest_barycentric(std::int32_t place, const Vec3& query) const {
+    return degenerate[place] ? skinforge::closest_barycentric(query, corners[place])
+                             : closest_barycentric_in_plane(query, corners[place]);
   }
 
   // Moments of every cluster from the leaves up; children stand behind their parents.
@@ -165,7 +172,7 @@ struct TriangleBvh::Impl {
   double exact_solid_angle(BoxTree::Child leaf, const Vec3& query) const {
     double sum = 0;
     for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
-      if (!is_degenerate(corners[i])) sum += solid_angle(query, corners[i]);
+      if (!degenerate[i]) sum += solid_angle(query, corners[i]);
     return sum;
   }
 };
@@ -182,7 +189,7 @@ ClosestPoint TriangleBvh::closest(const Vec3& query, double limit) const {
   const auto visit_leaf = [&](BoxTree::Child leaf, double limit2) {
     for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
       const std::int32_t triangle = impl_->tree.order[i];
-      const Vec3 barycentric = closest_barycentric(query, impl_->corners[i]);
+      const Vec3 barycentric = impl_->closest_barycentric(i, query);
       const Vec3 point = interpolate(impl_->corners[i], barycentric);
       const double distance2 = (query - point).squaredNorm();
       const bool nearer = distance2 < limit2 || (distance2 == limit2 && best.triangle < 0);

@@ -38,7 +38,10 @@ bool is_degenerate(const TriangleCorners& t) {
 }
 
 Vec3 closest_barycentric(const Vec3& p, const TriangleCorners& t) {
-  if (is_degenerate(t)) return closest_on_edges(p, t);
+  return is_degenerate(t) ? closest_on_edges(p, t) : closest_barycentric_in_plane(p, t);
+}
+
+Vec3 closest_barycentric_in_plane(const Vec3& p, const TriangleCorners& t) {
   const Vec3 ab = t[1] - t[0], ac = t[2] - t[0];
   const Vec3 ap = p - t[0], bp = p - t[1], cp = p - t[2];
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);

@@ -19,6 +19,9 @@ bool is_degenerate(const TriangleCorners& t);
 /// three edges, so the answer is always finite.
 Vec3 closest_barycentric(const Vec3& p, const TriangleCorners& t);
 
+/// The same for a triangle known not to be degenerate, where the test would cost more than the answer.
+Vec3 closest_barycentric_in_plane(const Vec3& p, const TriangleCorners& t);
+
 /// The point with those barycentric coordinates; exactly a corner when its coordinate is 1.
 Vec3 interpolate(const TriangleCorners& t, const Vec3& barycentric);
 

@@ -114,14 +114,29 @@ void WindingExpansion::set(int lane, const WindingMoments& moments, double radiu
 // the moments, leaves  n.r/|r|^3 - 3 Q(r)/|r|^5 + 15/2 C(r)/|r|^7  for trace-free Q and C.
 WindingExpansion::Value WindingExpansion::at(const Vec3& query) const {
   const Lanes x = centre[0] - query[0], y = centre[1] - query[1], z = centre[2] - query[2];
-  const Lanes xx = x * x, yy = y * y, zz = z * z, xy = x * y;
+  const Lanes xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z;
   const Lanes distance2 = xx + yy + zz;
-  const Lanes linear = order0[0] * x + order0[1] * y + order0[2] * z;
-  const Lanes quadratic =
-      order1[0] * xx + order1[1] * yy + order1[2] * zz + (order1[3] * y + order1[4] * x) * z + order1[5] * xy;
-  const Lanes cubic = (order2[0] * x + order2[3] * y + order2[4] * z) * xx +
-                      (order2[1] * y + order2[5] * x + order2[6] * z) * yy +
-                      (order2[2] * z + order2[7] * x + order2[8] * y) * zz + order2[9] * xy * z;
+  // One product a statement: longer expressions are not inlined and cost twice the time.
+  Lanes linear = order0[0] * x;
+  linear += order0[1] * y;
+  linear += order0[2] * z;
+  Lanes quadratic = order1[0] * xx;
+  quadratic += order1[1] * yy;
+  quadratic += order1[2] * zz;
+  quadratic += order1[3] * yz;
+  quadratic += order1[4] * xz;
+  quadratic += order1[5] * xy;
+  Lanes along_x = order2[0] * x, along_y = order2[1] * y, along_z = order2[2] * z;
+  along_x += order2[3] * y;
+  along_x += order2[4] * z;
+  along_y += order2[5] * x;
+  along_y += order2[6] * z;
+  along_z += order2[7] * x;
+  along_z += order2[8] * y;
+  Lanes cubic = along_x * xx;
+  cubic += along_y * yy;
+  cubic += along_z * zz;
+  cubic += order2[9] * xy * z;
   const Lanes inverse2 = distance2.inverse();
   const Lanes inverse3 = inverse2 * inverse2.sqrt();
   return {(linear - (quadratic - cubic * inverse2) * inverse2) * inverse3, distance2};
