@@ -36,8 +36,8 @@ class Artifact {
   template <class T>
   const T& get() const;
 
-  /// The bytes as stored; loaded anew when they are not held. Throws like `get`.
-  Bytes bytes() const;
+  /// The bytes as stored, loaded anew when they are not held; none when the loader has none.
+  std::optional<Bytes> bytes() const;
 
   /// Loads the bytes unless they, or the value, are held. False when the loader has none.
   bool try_load() const;
@@ -45,10 +45,12 @@ class Artifact {
   /// From now on the bytes can be had from `loader`, so memory need not hold them beside a decoded value.
   void stored(Loader loader);
 
+  /// Puts back bytes that were lost; they must have this artifact's digest.
+  void restore(Bytes bytes);
+
  private:
   template <class T>
   const T& hold(T value) const;
-  Bytes load() const;
   void expect_type(std::type_index type) const;
 
   Digest digest_;
@@ -80,11 +82,12 @@ const T& Artifact::get() const {
     expect_type(typeid(T));
     return *static_cast<const T*>(value_.get());
   }
-  Bytes bytes = bytes_ ? *std::exchange(bytes_, std::nullopt) : load();
+  std::optional<Bytes> bytes = bytes_ || !loader_ ? std::exchange(bytes_, std::nullopt) : loader_();
+  if (!bytes) throw Error(ExitCode::Internal, "artifact " + digest_.hex() + " is not there any more");
   if constexpr (std::is_same_v<T, Bytes>)
-    return hold(std::move(bytes));
+    return hold(*std::move(bytes));
   else
-    return hold(from_bytes<T>(bytes));
+    return hold(from_bytes<T>(*bytes));
 }
 
 template <class T>

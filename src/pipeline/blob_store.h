@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,9 +69,11 @@ class DiskStore final : public BlobStore {
   void remove_stale_temporaries(const std::string& folder, double age_seconds = 3600) const;
 
  private:
+  void tidy_once(const std::string& folder);
+
   std::filesystem::path root_;
   std::mutex mutex_;
-  std::map<std::string, bool> prepared_;  ///< folders that this process has made and tidied
+  std::set<std::string> tidied_;  ///< folders
 };
 
 /// Writes a file so that it appears whole or not at all: temporary in the same folder, then rename. False

@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ struct Manifest {
   int version = 0;
   std::vector<HashedField> parameters;  ///< in the order of `add_to_key`
   std::vector<HashedField> inputs;      ///< artifact name and digest, in the order of `reads`
-  std::vector<Output> outputs;       ///< in the order of `writes`
+  std::vector<Output> outputs;          ///< in the order of `writes`
   std::vector<Issue> issues;
   StageCost cost;
 };
@@ -85,16 +86,17 @@ class Cache {
   /// Removes every entry, manifests first. Returns how many.
   std::uint64_t clear();
 
-  /// Warnings since the last call, at most one of each kind in a session.
+  /// Warnings since the last call, at most one of each kind and one of each entry in a session.
   std::vector<Issue> take_warnings();
 
  private:
+  bool has_blobs(const Manifest& manifest) const;
   void warn(const std::string& code, const std::string& place, const std::string& message);
 
   BlobStore& store_;
   std::mutex mutex_;
   std::vector<Issue> warnings_;
-  std::map<std::string, int> warned_;
+  std::set<std::string> warned_;  ///< kinds and entries
 };
 
 }  // namespace skinforge

@@ -45,7 +45,7 @@ class EngineObserver {
 struct EngineOptions {
   std::size_t jobs = 1;                ///< stages at a time; never changes a result
   std::string build = kVersion;        ///< id of the tool, part of every key
-  std::string session;                 ///< whose last run to compare with for reasons; empty = none
+  std::string session = {};            ///< whose last run to compare with for reasons; empty = none
   EngineObserver* observer = nullptr;  ///< may be null
 };
 
@@ -61,8 +61,14 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// An artifact that no stage makes: its bytes, or its digest and a way to load it when a stage has to run.
-  void put_source(const std::string& name, Bytes bytes);
+  /// An artifact that no stage makes, in hand.
+  template <class T>
+  void put_source(const std::string& name, T value) {
+    put_artifact(name, Artifact::of(std::move(value)));
+  }
+  /// Likewise by the digest of its bytes, with a way to load them when a stage has to run (in any thread;
+  /// what it throws fails that stage). Loaded bytes of another digest are an Error (BadInput): the source
+  /// changed.
   void put_source(const std::string& name, const Digest& digest, std::uint64_t size,
                   std::function<Bytes()> load);
 
@@ -80,7 +86,7 @@ class Engine {
   std::vector<StagePlan> plan();
 
   /// One per stage run so far, in the order they were added.
-  const std::vector<StageResult>& results() const;
+  std::vector<StageResult> results() const;
   /// Whether every stage so far was a hit or ran well.
   bool is_ok() const;
 
@@ -94,10 +100,11 @@ class Engine {
   const T& get(const std::string& name) {
     return loaded(name).get<T>();
   }
-  /// Its bytes as stored.
-  Bytes bytes(const std::string& name) { return loaded(name).bytes(); }
+  /// Its bytes as stored, likewise.
+  Bytes bytes(const std::string& name);
 
  private:
+  void put_artifact(const std::string& name, std::shared_ptr<Artifact> artifact);
   const Artifact& loaded(const std::string& name);
   struct Session;
   std::unique_ptr<Session> session_;

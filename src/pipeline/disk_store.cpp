@@ -1,0 +1,163 @@
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <random>
+
+#include "pipeline/blob_store.h"
+
+namespace skinforge {
+namespace fs = std::filesystem;
+
+namespace {
+constexpr std::string_view kTemporaryPrefix = ".tmp-";
+
+// A file descriptor that closes itself.
+class File {
+ public:
+  File(const fs::path& path, int flags, mode_t mode = 0) : descriptor_(::open(path.c_str(), flags, mode)) {}
+  ~File() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  bool is_open() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+  bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
+
+ private:
+  int descriptor_;
+};
+
+// Size of a regular file; none for anything else, links included.
+std::optional<std::uint64_t> regular_size(const fs::path& path) {
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+bool read_all(int descriptor, std::span<std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t got = ::read(descriptor, bytes.data(), bytes.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
+  }
+  return true;
+}
+
+bool write_all(int descriptor, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(descriptor, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(put));
+  }
+  return true;
+}
+
+std::string temporary_name() {
+  thread_local std::random_device random;
+  const auto digits = (static_cast<std::uint64_t>(random()) << 32) | random();
+  return std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-" + std::to_string(digits);
+}
+
+// The process number in a temporary's name; none when it is not one of ours.
+std::optional<pid_t> owner(std::string_view name) {
+  if (!name.starts_with(kTemporaryPrefix)) return std::nullopt;
+  name.remove_prefix(kTemporaryPrefix.size());
+  pid_t process = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), process);
+  if (error != std::errc() || end == name.data() + name.size() || *end != '-') return std::nullopt;
+  return process;
+}
+
+bool is_running(pid_t process) {
+  return ::kill(process, 0) == 0 || errno == EPERM;
+}
+
+double age_seconds_of(const fs::path& path) {
+  std::error_code error;
+  const auto written = fs::last_write_time(path, error);
+  if (error) return 0;
+  return std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count();
+}
+}  // namespace
+
+bool write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+  const fs::path temporary = path.parent_path() / temporary_name();
+  File file(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (!file.is_open()) return false;
+  const bool is_whole = write_all(file.descriptor(), bytes) && file.close();
+  if (is_whole && ::rename(temporary.c_str(), path.c_str()) == 0) return true;
+  ::unlink(temporary.c_str());
+  return false;
+}
+
+std::optional<Bytes> DiskStore::read(const std::string& path) const {
+  const File file(root_ / path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  struct stat status {};
+  if (!file.is_open() || ::fstat(file.descriptor(), &status) != 0 || !S_ISREG(status.st_mode))
+    return std::nullopt;
+  Bytes bytes(static_cast<std::size_t>(status.st_size));
+  if (!read_all(file.descriptor(), bytes)) return std::nullopt;
+  return bytes;
+}
+
+std::optional<std::uint64_t> DiskStore::size(const std::string& path) const {
+  return regular_size(root_ / path);
+}
+
+bool DiskStore::write(const std::string& path, std::span<const std::byte> bytes) {
+  const fs::path target = root_ / path;
+  std::error_code error;
+  fs::create_directories(target.parent_path(), error);
+  if (error) return false;
+  tidy_once(fs::path(path).parent_path());
+  if (fs::is_directory(fs::symlink_status(target, error))) fs::remove_all(target, error);  // rename cannot
+  return write_file_atomically(target, bytes);
+}
+
+void DiskStore::tidy_once(const std::string& folder) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!tidied_.insert(folder).second) return;
+  }
+  remove_stale_temporaries(folder);
+}
+
+void DiskStore::remove(const std::string& path) {
+  std::error_code error;
+  fs::remove_all(root_ / path, error);
+}
+
+std::vector<BlobStore::Entry> DiskStore::list(const std::string& folder) const {
+  std::vector<Entry> found;
+  std::error_code error;
+  for (fs::directory_iterator item(root_ / folder, error), end; !error && item != end;
+       item.increment(error)) {
+    const std::string name = item->path().filename();
+    if (!owner(name)) found.push_back({name, regular_size(item->path()).value_or(0)});
+  }
+  std::sort(found.begin(), found.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
+  return found;
+}
+
+void DiskStore::remove_stale_temporaries(const std::string& folder, double age_seconds) const {
+  std::error_code error;
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator item(root_ / folder, error), end; !error && item != end;
+       item.increment(error)) {
+    const auto process = owner(item->path().filename().string());
+    if (process && !is_running(*process) && age_seconds_of(item->path()) > age_seconds)
+      stale.push_back(item->path());
+  }
+  for (const fs::path& path : stale) fs::remove(path, error);
+}
+
+}  // namespace skinforge

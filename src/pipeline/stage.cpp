@@ -1,0 +1,37 @@
+#include "pipeline/stage.h"
+
+#include <algorithm>
+
+#include "base/expect.h"
+
+namespace skinforge {
+
+std::string StageInfo::label() const {
+  return instance.empty() ? name : name + " " + instance;
+}
+
+const Artifact& StageInput::artifact(std::string_view name) const {
+  const auto found = artifacts_.find(name);
+  if (found == artifacts_.end())
+    throw Error(ExitCode::Internal, "artifact \"" + std::string(name) + "\" is read but not declared");
+  return *found->second;
+}
+
+void StageOutput::expect_open(std::string_view name) const {
+  SF_EXPECT(!artifacts_.contains(name));  // put once
+  if (std::find(info_.writes.begin(), info_.writes.end(), name) == info_.writes.end())
+    throw Error(ExitCode::Internal, "artifact \"" + std::string(name) + "\" is written but not declared");
+}
+
+std::vector<std::shared_ptr<Artifact>> StageOutput::take() const {
+  std::vector<std::shared_ptr<Artifact>> artifacts;
+  for (const std::string& name : info_.writes) {
+    const auto found = artifacts_.find(name);
+    if (found == artifacts_.end())
+      throw Error(ExitCode::Internal, "artifact \"" + name + "\" is declared but not written");
+    artifacts.push_back(found->second);
+  }
+  return artifacts;
+}
+
+}  // namespace skinforge

@@ -1,0 +1,165 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "pipeline/blob_store.h"
+#include "pipeline/text_stage.h"
+#include "testing/temporary_folder.h"
+
+namespace skinforge {
+namespace {
+namespace fs = std::filesystem;
+using testing::bytes_of;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using testing::TemporaryFolder;
+
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& item : fs::directory_iterator(folder)) names.push_back(item.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+// A process number that is surely not running: a child that has ended and was waited for.
+pid_t ended_process() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  return child;
+}
+
+TEST(DiskStore, ReadsWhatWasWritten) {
+  const TemporaryFolder folder;
+  DiskStore store(folder / "cache");
+  EXPECT_FALSE(store.read("cas/x"));
+  EXPECT_FALSE(store.size("cas/x"));
+  EXPECT_TRUE(store.write("cas/x", bytes_of("first")));
+  EXPECT_TRUE(store.write("cas/x", bytes_of("second")));
+  EXPECT_EQ(store.read("cas/x"), bytes_of("second"));
+  EXPECT_EQ(store.size("cas/x"), 6U);
+  EXPECT_TRUE(store.write("cas/empty", {}));
+  EXPECT_EQ(store.read("cas/empty"), Bytes());
+  EXPECT_THAT(files_in(folder / "cache/cas"), ::testing::ElementsAre("empty", "x"));  // no temporary stays
+  store.remove("cas/x");
+  EXPECT_FALSE(store.read("cas/x"));
+}
+
+TEST(DiskStore, ListsEntriesButNoTemporaries) {
+  const TemporaryFolder folder;
+  DiskStore store(folder.path());
+  store.write("ac/b", bytes_of("22"));
+  store.write("ac/a", bytes_of("1"));
+  write_text(folder / "ac/.tmp-1-2", "half");
+  const auto entries = store.list("ac");
+  ASSERT_THAT(entries, SizeIs(2));
+  EXPECT_EQ(entries[0].name, "a");
+  EXPECT_EQ(entries[1].size, 2U);
+  EXPECT_THAT(store.list("cas"), IsEmpty());
+}
+
+TEST(DiskStore, FoldersAndLinksAreNotEntries) {
+  const TemporaryFolder folder;
+  DiskStore store(folder.path());
+  fs::create_directories(folder / "cas/folder/inside");
+  write_text(folder / "secret", "secret");
+  fs::create_symlink(folder / "secret", folder / "cas/link");
+  EXPECT_FALSE(store.read("cas/folder"));
+  EXPECT_FALSE(store.read("cas/link"));
+  EXPECT_FALSE(store.size("cas/link"));
+  EXPECT_TRUE(store.write("cas/folder", bytes_of("entry")));
+  EXPECT_TRUE(store.write("cas/link", bytes_of("entry")));
+  EXPECT_EQ(store.read("cas/folder"), bytes_of("entry"));
+  EXPECT_EQ(store.read("cas/link"), bytes_of("entry"));
+  EXPECT_EQ(DiskStore(folder.path()).read("secret"),
+            bytes_of("secret"));  // the link was replaced, not followed
+}
+
+TEST(DiskStore, RefusesQuietlyWhereItCannotWrite) {
+  const TemporaryFolder folder;
+  write_text(folder / "file", "");
+  DiskStore store(folder / "file");  // a folder cannot be made below a file
+  EXPECT_FALSE(store.write("cas/x", bytes_of("x")));
+  EXPECT_FALSE(store.read("cas/x"));
+  EXPECT_THAT(store.list("cas"), IsEmpty());
+}
+
+TEST(DiskStore, MakesItsFoldersAgainWhenTheyGo) {
+  const TemporaryFolder folder;
+  DiskStore store(folder / "cache");
+  EXPECT_TRUE(store.write("cas/x", bytes_of("x")));
+  fs::remove_all(folder / "cache");
+  EXPECT_TRUE(store.write("cas/x", bytes_of("x")));
+}
+
+TEST(DiskStore, RemovesTemporariesThatAreOldAndWhoseProcessIsGone) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "cas");
+  const std::string gone = std::to_string(ended_process()), running = std::to_string(::getpid());
+  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(2);
+  for (const std::string& name : {".tmp-" + gone + "-1", ".tmp-" + running + "-2", ".tmp-" + gone + "-3"})
+    write_text(folder / ("cas/" + name), "half");
+  write_text(folder / "cas/.tmp-note", "not ours");
+  for (const auto& item : fs::directory_iterator(folder / "cas"))
+    if (!item.path().string().ends_with("-3")) fs::last_write_time(item.path(), old);
+
+  DiskStore store(folder.path());
+  store.write("cas/x", bytes_of("x"));
+  std::vector<std::string> expected = {".tmp-" + running + "-2", ".tmp-" + gone + "-3", ".tmp-note", "x"};
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(files_in(folder / "cas"), expected);
+}
+
+// A reader that looks all the time never sees anything but one of the two whole contents.
+TEST(DiskStore, WritesAppearWholeOrNotAtAll) {
+  const TemporaryFolder folder;
+  DiskStore store(folder.path());
+  const Bytes one(300000, std::byte{1}), two(200000, std::byte{2});
+  store.write("cas/x", one);
+  std::atomic<bool> stop = false;
+  std::thread writer([&] {
+    for (int i = 0; i < 200; ++i) store.write("cas/x", i % 2 ? one : two);
+    stop = true;
+  });
+  int others = 0;
+  while (!stop) {
+    const auto seen = store.read("cas/x");
+    if (seen != one && seen != two) ++others;
+  }
+  writer.join();
+  EXPECT_EQ(others, 0);
+}
+
+// A process that dies while it writes leaves the old content, or the new, never a part.
+TEST(DiskStore, AKilledWriterLeavesWholeEntries) {
+  const TemporaryFolder folder;
+  const Bytes one(1 << 20, std::byte{1}), two(1 << 20, std::byte{2});
+  DiskStore store(folder.path());
+  store.write("cas/x", one);
+  for (int round = 0; round < 20; ++round) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      DiskStore writer(folder.path());
+      for (int i = 0;; ++i) writer.write("cas/x", i % 2 ? one : two);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(300 + 517 * round));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    const auto seen = store.read("cas/x");
+    EXPECT_TRUE(seen == one || seen == two);
+    EXPECT_THAT(store.list("cas"), SizeIs(1));
+  }
+}
+
+}  // namespace
+}  // namespace skinforge

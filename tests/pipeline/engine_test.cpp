@@ -1,0 +1,480 @@
+#include "pipeline/engine.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "pipeline/text_stage.h"
+
+namespace skinforge {
+namespace {
+using testing::bytes_of;
+using testing::Counter;
+using testing::counter;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using testing::Text;
+using testing::text_stage;
+
+// source -> a -> b -> d, source -> c -> d. `a` keeps one letter, so most changes of its parameter stop there.
+struct Diamond {
+  std::string a = "A1", b = "B", c = "C", d = "D";
+  std::string source = "s";
+  Counter a_runs = counter(), b_runs = counter(), c_runs = counter(), d_runs = counter();
+
+  void add_to(Engine& engine) const {
+    engine.put_source("source", Text{source});
+    auto first = text_stage("first", {"source"}, {"a"}, a, a_runs);
+    first->keep = 1;
+    engine.add(text_stage("last", {"b", "c"}, {"d"}, d, d_runs));  // order of adding is not order of running
+    engine.add(std::move(first));
+    engine.add(text_stage("second", {"a"}, {"b"}, b, b_runs));
+    engine.add(text_stage("third", {"source"}, {"c"}, c, c_runs));
+  }
+  std::string build(Cache& cache, std::size_t jobs = 1) const {
+    Engine engine(cache, {.jobs = jobs, .session = "diamond"});
+    add_to(engine);
+    engine.run();
+    EXPECT_TRUE(engine.is_ok());
+    return engine.get<Text>("d").value;
+  }
+  std::vector<int> runs() const { return {*a_runs, *b_runs, *c_runs, *d_runs}; }
+};
+
+std::map<std::string, StageResult> by_label(const Engine& engine) {
+  std::map<std::string, StageResult> results;
+  for (const StageResult& result : engine.results()) results[result.info.label()] = result;
+  return results;
+}
+
+// By hand: a = "A" (cut), b = "B" + a, c = "C" + source, d = "D" + b + c.
+TEST(Engine, RunsStagesInTheOrderOfTheirArtifacts) {
+  MemoryStore store;
+  Cache cache(store);
+  EXPECT_EQ(Diamond().build(cache), "DBACs");
+}
+
+TEST(Engine, SecondBuildRunsNothing) {
+  MemoryStore store;
+  Diamond diamond;
+  for (int build = 0; build < 2; ++build) {
+    Cache cache(store);
+    EXPECT_EQ(diamond.build(cache), "DBACs");
+  }
+  EXPECT_THAT(diamond.runs(), ElementsAre(1, 1, 1, 1));
+}
+
+TEST(Engine, EqualBytesStopTheChain) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond diamond;
+  diamond.build(cache);
+  diamond.a = "A2";  // another key for `first`, but the same output after the cut
+  diamond.build(cache);
+  EXPECT_THAT(diamond.runs(), ElementsAre(2, 1, 1, 1));
+}
+
+TEST(Engine, AChangeRunsWhatDependsOnItAndNothingElse) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond diamond;
+  diamond.build(cache);
+  diamond.b = "b";
+  EXPECT_EQ(diamond.build(cache), "DbACs");
+  EXPECT_THAT(diamond.runs(), ElementsAre(1, 2, 1, 2));
+  diamond.source = "t";  // `first` cuts its input away
+  EXPECT_EQ(diamond.build(cache), "DbACt");
+  EXPECT_THAT(diamond.runs(), ElementsAre(2, 2, 2, 3));
+}
+
+TEST(Engine, AHitStaysUndecodedUntilSomebodyAsks) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond diamond;
+  diamond.build(cache);
+  for (auto& [path, bytes] : store.entries)
+    if (path.starts_with("cas/")) bytes[0] ^= std::byte{1};  // same length, so only reading it would notice
+  Engine engine(cache, {});
+  diamond.add_to(engine);
+  engine.run();
+  EXPECT_TRUE(engine.is_ok());
+  EXPECT_THAT(diamond.runs(), ElementsAre(1, 1, 1, 1));
+  EXPECT_THAT(cache.take_warnings(), IsEmpty());
+}
+
+TEST(Engine, BytesAreStoredRaw) {
+  struct RawStage final : Stage {
+    StageInfo info() const override { return {.name = "raw", .writes = {"file"}}; }
+    void add_to_key(Hasher&) const override {}
+    void run(const StageInput&, StageOutput& out, IssueSink&) const override {
+      out.put("file", bytes_of("xyz"));
+    }
+  };
+  MemoryStore store;
+  Cache cache(store);
+  Engine engine(cache, {});
+  engine.add(std::make_unique<RawStage>());
+  engine.run();
+  EXPECT_EQ(engine.bytes("file"), bytes_of("xyz"));
+  EXPECT_EQ(engine.digest("file"), sha256(bytes_of("xyz")));
+  EXPECT_EQ(store.entries.at("cas/" + sha256(bytes_of("xyz")).hex()), bytes_of("xyz"));
+}
+
+TEST(Engine, TakesASecondBatch) {
+  MemoryStore store;
+  Cache cache(store);
+  Engine engine(cache, {.jobs = 2});
+  engine.put_source("source", Text{"s"});
+  engine.add(text_stage("one", {"source"}, {"a"}, "A"));
+  engine.run();
+  const std::string clip = engine.get<Text>("a").value;
+  engine.add(text_stage("two", {"a", "source"}, {"b"}, clip + "!"));
+  engine.run();
+  EXPECT_EQ(engine.get<Text>("b").value, "As!Ass");
+  EXPECT_THAT(engine.results(), SizeIs(2));
+}
+
+TEST(Engine, AFailedStageTakesOnlyItsDependentsWithIt) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond diamond;
+  Engine engine(cache, {});
+  engine.put_source("source", Text{"s"});
+  auto failing = text_stage("first", {"source"}, {"a"}, "A");
+  failing->extra = [](IssueSink&) {
+    throw Error(ExitCode::BadInput, "man.fbx: importer crashed (signal 11)");
+  };
+  engine.add(std::move(failing));
+  engine.add(text_stage("second", {"a"}, {"b"}, "B"));
+  engine.add(text_stage("third", {"source"}, {"c"}, "C"));
+  engine.add(text_stage("last", {"b", "c"}, {"d"}, "D"));
+  engine.run();
+  const auto results = by_label(engine);
+  EXPECT_EQ(results.at("first").status, StageStatus::Failed);
+  EXPECT_EQ(results.at("first").code, ExitCode::BadInput);
+  EXPECT_EQ(results.at("first").error, "man.fbx: importer crashed (signal 11)");
+  EXPECT_EQ(results.at("second").status, StageStatus::Skipped);
+  EXPECT_EQ(results.at("second").reason, "first failed");
+  EXPECT_EQ(results.at("third").status, StageStatus::Ran);
+  EXPECT_EQ(results.at("last").status, StageStatus::Skipped);
+  EXPECT_EQ(results.at("last").reason, "second was skipped");
+  EXPECT_FALSE(engine.is_ok());
+  EXPECT_FALSE(engine.has("a"));
+  EXPECT_TRUE(engine.has("c"));
+}
+
+TEST(Engine, AFailureIsNotStored) {
+  MemoryStore store;
+  Cache cache(store);
+  const Counter runs = counter();
+  for (int build = 0; build < 2; ++build) {
+    Engine engine(cache, {});
+    auto failing = text_stage("first", {}, {"a"}, "A", runs);
+    failing->extra = [](IssueSink&) { throw std::runtime_error("what a library says"); };
+    engine.add(std::move(failing));
+    engine.run();
+    EXPECT_EQ(engine.results().at(0).code, ExitCode::Internal);
+    EXPECT_EQ(engine.results().at(0).error, "what a library says");
+  }
+  EXPECT_EQ(*runs, 2);
+  EXPECT_THAT(store.list("ac"), IsEmpty());
+}
+
+TEST(Engine, IssuesAreToldAgainOnAHit) {
+  MemoryStore store;
+  Cache cache(store);
+  for (const StageStatus expected : {StageStatus::Ran, StageStatus::Hit}) {
+    Engine engine(cache, {});
+    auto stage = text_stage("first", {}, {"a"}, "A");
+    stage->extra = [](IssueSink& issues) { issues.warn("odd", "man.fbx", "3 weights were not finite"); };
+    engine.add(std::move(stage));
+    engine.run();
+    const StageResult result = engine.results().at(0);
+    EXPECT_EQ(result.status, expected);
+    ASSERT_THAT(result.issues, SizeIs(1));
+    EXPECT_EQ(result.issues[0].code, "odd");
+    EXPECT_EQ(result.issues[0].severity, Severity::Warning);
+    EXPECT_EQ(result.issues[0].place, "man.fbx");
+    EXPECT_EQ(result.issues[0].message, "3 weights were not finite");
+  }
+}
+
+// Everything but the entries' cost is the same for any number of jobs.
+TEST(Engine, TheNumberOfJobsChangesNoByte) {
+  const auto blobs_after = [](std::size_t jobs) {
+    MemoryStore store;
+    Cache cache(store);
+    Engine engine(cache, {.jobs = jobs});
+    engine.put_source("source", Text{"s"});
+    for (int i = 0; i < 40; ++i) {
+      const std::string n = std::to_string(i);
+      engine.add(text_stage("wide" + n, {"source"}, {"w" + n}, n));
+      engine.add(
+          text_stage("deep" + n, {"w" + n, i == 0 ? "source" : "x" + std::to_string(i - 1)}, {"x" + n}, "-"));
+    }
+    engine.run();
+    EXPECT_TRUE(engine.is_ok());
+    std::vector<std::string> names;
+    for (const StageResult& result : engine.results()) names.push_back(result.info.name + result.key.hex());
+    for (const auto& [path, bytes] : store.entries)
+      if (path.starts_with("cas/")) names.push_back(path);
+    return names;
+  };
+  const auto one = blobs_after(1);
+  EXPECT_EQ(one, blobs_after(2));
+  EXPECT_EQ(one, blobs_after(8));
+}
+
+TEST(Engine, MistakesInTheGraphAreNamed) {
+  MemoryStore store;
+  Cache cache(store);
+  const auto message = [&](auto&& prepare) {
+    Engine engine(cache, {});
+    try {
+      prepare(engine);
+      engine.run();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::Internal);
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(message([](Engine& e) { e.add(text_stage("one", {"x"}, {"a"}, "")); }),
+              HasSubstr("nobody makes artifact \"x\""));
+  EXPECT_THAT(message([](Engine& e) {
+                e.add(text_stage("one", {}, {"a"}, ""));
+                e.add(text_stage("two", {}, {"a"}, ""));
+              }),
+              HasSubstr("artifact \"a\" has two makers"));
+  EXPECT_THAT(message([](Engine& e) {
+                e.add(text_stage("one", {"b"}, {"a"}, ""));
+                e.add(text_stage("two", {"a"}, {"b"}, ""));
+              }),
+              HasSubstr("in a circle"));
+}
+
+struct Misbehaving final : Stage {
+  int what;
+  explicit Misbehaving(int w) : what(w) {}
+  StageInfo info() const override { return {.name = "bad", .writes = {"a"}}; }
+  void add_to_key(Hasher&) const override {}
+  void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
+    if (what == 0) in.get<Text>("undeclared");
+    if (what == 1) out.put("undeclared", Text{});
+  }
+};
+
+TEST(Engine, AStageSeesOnlyWhatItDeclared) {
+  const std::vector<std::string> expected = {"\"undeclared\" is read but not declared",
+                                             "\"undeclared\" is written but not declared",
+                                             "\"a\" is declared but not written"};
+  for (int what = 0; what < 3; ++what) {
+    MemoryStore store;
+    Cache cache(store);
+    Engine engine(cache, {});
+    engine.add(std::make_unique<Misbehaving>(what));
+    engine.run();
+    EXPECT_THAT(engine.results().at(0).error, HasSubstr(expected[what]));
+  }
+}
+
+TEST(Engine, SourcesMayBeLoadedLate) {
+  MemoryStore store;
+  Cache cache(store);
+  const Bytes bytes = to_bytes(Text{"late"});
+  int loads = 0;
+  for (int build = 0; build < 2; ++build) {
+    Engine engine(cache, {});
+    engine.put_source("file", sha256(bytes), bytes.size(), [&] {
+      ++loads;
+      return bytes;
+    });
+    engine.add(text_stage("one", {"file"}, {"a"}, ""));
+    engine.run();
+    EXPECT_EQ(engine.get<Text>("a").value, "late");
+  }
+  EXPECT_EQ(loads, 1);  // the hit needs the digest only
+}
+
+TEST(Engine, ASourceThatChangedIsAnError) {
+  MemoryStore store;
+  Cache cache(store);
+  Engine engine(cache, {});
+  engine.put_source("horse.glb", sha256(bytes_of("before")), 6, [] { return bytes_of("after!"); });
+  engine.add(text_stage("one", {"horse.glb"}, {"a"}, ""));
+  engine.run();
+  EXPECT_EQ(engine.results().at(0).error, "horse.glb: changed while it was read");
+  EXPECT_EQ(engine.results().at(0).code, ExitCode::BadInput);
+}
+
+// ---- plan and reasons
+
+std::vector<std::string> plan_lines(Engine& engine) {
+  std::vector<std::string> lines;
+  for (const StagePlan& plan : engine.plan()) {
+    const char* state = plan.state == PlanState::Hit ? "hit" : plan.state == PlanState::Run ? "run" : "waits";
+    lines.push_back(plan.info.label() + ": " + state + (plan.reason.empty() ? "" : ", " + plan.reason));
+  }
+  return lines;
+}
+
+TEST(Plan, SaysWhatWouldRunAndWhy) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond diamond;
+  const auto plan = [&](std::string build = kVersion) {
+    Engine engine(cache, {.build = build, .session = "diamond"});
+    diamond.add_to(engine);
+    return plan_lines(engine);
+  };
+  EXPECT_THAT(plan(), ElementsAre("last: waits, waits for second", "first: run, never run",
+                                  "second: waits, waits for first", "third: run, never run"));
+  diamond.build(cache);
+  EXPECT_THAT(plan(), ElementsAre("last: hit", "first: hit", "second: hit", "third: hit"));
+  EXPECT_THAT(diamond.runs(), ElementsAre(1, 1, 1, 1));  // planning runs nothing
+
+  diamond.c = "C2";
+  EXPECT_THAT(plan(), ElementsAre("last: waits, waits for third", "first: hit", "second: hit",
+                                  "third: run, parameter parameter: C -> C2"));
+  diamond.c = "C";
+  diamond.source = "t";
+  EXPECT_THAT(plan(), ElementsAre("last: waits, waits for second", "first: run, input source changed",
+                                  "second: waits, waits for first", "third: run, input source changed"));
+  diamond.source = "s";
+  EXPECT_THAT(plan("9.9"), ElementsAre("last: waits, waits for second", "first: run, the tool changed",
+                                       "second: waits, waits for first", "third: run, the tool changed"));
+}
+
+TEST(Plan, NoticesAMissingEntry) {
+  MemoryStore store;
+  Cache cache(store);
+  Engine engine(cache, {.session = "x"});
+  engine.add(text_stage("one", {}, {"a"}, "A"));
+  engine.run();
+  store.entries.erase("ac/" + engine.results().at(0).key.hex());
+  Engine again(cache, {.session = "x"});
+  again.add(text_stage("one", {}, {"a"}, "A"));
+  EXPECT_THAT(plan_lines(again), ElementsAre("one: run, its cache entry is missing or damaged"));
+}
+
+TEST(Plan, ResultsSayWhyAStageRan) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond diamond;
+  diamond.build(cache);
+  diamond.b = "b";
+  Engine engine(cache, {.session = "diamond"});
+  diamond.add_to(engine);
+  engine.run();
+  const auto results = by_label(engine);
+  EXPECT_EQ(results.at("second").reason, "parameter parameter: B -> b");
+  EXPECT_EQ(results.at("last").reason, "input b changed");
+  EXPECT_EQ(results.at("third").status, StageStatus::Hit);
+  EXPECT_EQ(results.at("third").reason, "");
+}
+
+// ---- damage
+
+// Each entry of a warm cache in turn is flipped, cut, emptied or deleted; the result stays right, and
+// afterwards the cache is whole again.
+TEST(Damage, IsAMissAWarningAndARepair) {
+  MemoryStore warm;
+  {
+    Cache cache(warm);
+    Diamond().build(cache);
+  }
+  const std::vector<std::function<void(Bytes&)>> damages = {
+      [](Bytes& b) { b[b.size() / 2] ^= std::byte{4}; }, [](Bytes& b) { b.resize(b.size() - 1); },
+      [](Bytes& b) { b.clear(); }, [](Bytes& b) { b.push_back(std::byte{0}); }};
+  for (const auto& [path, whole] : warm.entries) {
+    if (path.starts_with("runs/")) continue;  // holds reasons only
+    for (std::size_t kind = 0; kind <= damages.size(); ++kind) {
+      SCOPED_TRACE(path + " damage " + std::to_string(kind));
+      MemoryStore store;
+      store.entries = warm.entries;
+      if (kind < damages.size())
+        damages[kind](store.entries.at(path));
+      else
+        store.entries.erase(path);
+      Cache cache(store);
+      Engine engine(cache, {.session = "diamond"});
+      Diamond().add_to(engine);
+      engine.run();
+      EXPECT_TRUE(engine.is_ok());
+      for (const char* name : {"a", "b", "c", "d"}) engine.get<Text>(name);
+      EXPECT_EQ(engine.get<Text>("d").value, "DBACs");
+      const bool is_plain_miss = kind == damages.size() && path.starts_with("ac/");
+      EXPECT_THAT(cache.take_warnings(), SizeIs(is_plain_miss ? 0 : 1));
+      EXPECT_THAT(cache.verify(), IsEmpty());
+      EXPECT_EQ(store.entries.count(path), 1);
+    }
+  }
+}
+
+TEST(Damage, EntriesThatWereSwappedAreNotBelieved) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond().build(cache);
+  const auto manifests = store.list("ac");
+  std::swap(store.entries.at("ac/" + manifests[0].name), store.entries.at("ac/" + manifests[1].name));
+  EXPECT_EQ(Diamond().build(cache), "DBACs");
+  EXPECT_THAT(cache.take_warnings(), SizeIs(1));
+}
+
+TEST(Damage, AResultThatCannotBeMadeAgainFailsTheReader) {
+  struct Drifting final : Stage {
+    StageInfo info() const override { return {.name = "drifting", .writes = {"a"}}; }
+    void add_to_key(Hasher&) const override {}
+    void run(const StageInput&, StageOutput& out, IssueSink&) const override {
+      static int run = 0;
+      out.put("a", Text{std::to_string(++run)});
+    }
+  };
+  MemoryStore store;
+  Cache cache(store);
+  for (int build = 0; build < 2; ++build) {
+    Engine engine(cache, {});
+    engine.add(std::make_unique<Drifting>());
+    engine.add(text_stage("reader", {"a"}, {"b"}, std::to_string(build)));
+    engine.run();
+    if (build == 0) {
+      EXPECT_TRUE(engine.is_ok());
+      store.entries.at("cas/" + engine.digest("a").hex()).back() ^= std::byte{1};
+    } else {
+      EXPECT_EQ(engine.results().at(1).code, ExitCode::NotReproducible);
+      EXPECT_THAT(engine.results().at(1).error, HasSubstr("stage drifting made other bytes"));
+    }
+  }
+}
+
+TEST(Damage, ACacheThatCannotBeWrittenCostsOneWarning) {
+  MemoryStore store;
+  store.is_read_only = true;
+  Cache cache(store);
+  EXPECT_EQ(Diamond().build(cache), "DBACs");
+  const auto warnings = cache.take_warnings();
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_EQ(warnings[0].code, "cache-not-writable");
+}
+
+TEST(Engine, TwoAtOnceShareOneCache) {
+  MemoryStore store;
+  std::vector<std::string> results(8);
+  std::vector<std::thread> builders;
+  for (std::string& result : results)
+    builders.emplace_back([&] {
+      Cache cache(store);
+      result = Diamond().build(cache, 2);
+      EXPECT_THAT(cache.take_warnings(), IsEmpty());
+    });
+  for (std::thread& builder : builders) builder.join();
+  EXPECT_THAT(results, ::testing::Each("DBACs"));
+  Cache cache(store);
+  EXPECT_THAT(cache.verify(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace skinforge
