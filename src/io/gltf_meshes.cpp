@@ -140,13 +140,14 @@ class MeshReader {
     }
     read_positions(attributes.get("POSITION"), primitive);
     check_counts(attributes, primitive.positions.size());
+    const auto list = vertex_list(place, primitive.positions.size());
     if (mode < kTriangles) {
       issues_.warn("primitive-skipped", document_.at(place), "points and lines are left out");
       return std::nullopt;
     }
     read_shading(attributes, primitive);
     read_weights(attributes, joint_limit, primitive);
-    read_faces(place, mode, primitive);
+    read_faces(place, mode, list, primitive);
     read_targets(place, primitive);
     return primitive;
   }
@@ -290,6 +291,12 @@ class MeshReader {
     return idle;
   }
 
+  /// The largest value of an index type names no vertex (glTF 2.0, section 3.7.2.1).
+  static double restart_index(int component_type) {
+    if (component_type == gltf::kUnsignedByte) return 0xFF;
+    return component_type == gltf::kUnsignedShort ? 0xFFFF : 0xFFFFFFFF;
+  }
+
   std::vector<std::int32_t> vertex_list(const JsonPlace& place, std::size_t vertex_count) const {
     std::vector<std::int32_t> list;
     const auto reference = place.find("indices");
@@ -297,9 +304,13 @@ class MeshReader {
       for (std::size_t i = 0; i < vertex_count; ++i) list.push_back(static_cast<std::int32_t>(i));
       return list;
     }
-    const GltfValues values = GltfAccessors::values(document_.accessors.find(
-        *reference, {"SCALAR"}, {gltf::kUnsignedByte, gltf::kUnsignedShort, gltf::kUnsignedInt}));
+    const GltfAccessor& accessor = document_.accessors.find(
+        *reference, {"SCALAR"}, {gltf::kUnsignedByte, gltf::kUnsignedShort, gltf::kUnsignedInt});
+    const GltfValues values = GltfAccessors::values(accessor);
+    const double restart = restart_index(accessor.component_type);
     for (std::size_t i = 0; i < values.count; ++i) {
+      if (values.numbers[i] == restart)
+        reference->fail(fmt::format("element {} is {}, which would restart a primitive", i, restart));
       if (values.numbers[i] >= static_cast<double>(vertex_count))
         reference->fail(fmt::format("index {} at element {}, the primitive has {} vertices",
                                     values.numbers[i], i, vertex_count));
@@ -308,8 +319,8 @@ class MeshReader {
     return list;
   }
 
-  void read_faces(const JsonPlace& place, std::size_t mode, Primitive& primitive) {
-    const auto list = vertex_list(place, primitive.positions.size());
+  void read_faces(const JsonPlace& place, std::size_t mode, const std::vector<std::int32_t>& list,
+                  Primitive& primitive) {
     if (mode == kTriangles && list.size() % 3 != 0)
       issues_.warn("triangle-incomplete", document_.at(place),
                    fmt::format("{} indices are not whole triangles; the rest is left out", list.size()));
