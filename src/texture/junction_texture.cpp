@@ -6,7 +6,9 @@
 
 #include "base/expect.h"
 #include "base/parallel.h"
+#include "texture/pack_charts.h"
 #include "texture/texel_map.h"
+#include "texture/unroll.h"
 
 namespace skinforge {
 namespace {
@@ -321,7 +323,7 @@ JunctionTexture bake_junction_texture(const JunctionSurface& junction, std::span
   result.material = look.material;
   result.neighbours_density = look.density;
 
-  const auto charts = grow_charts(*junction.mesh, junction.faces, options.charts);
+  const auto charts = make_charts(*junction.mesh, junction.faces, options.charts);
   const double wanted = std::max(look.density, mean_edge > 0 ? options.texels_per_edge / mean_edge : 1.0);
   const ChartPacking packing =
       pack_charts(charts, {wanted, options.smallest, options.largest, options.gutter});

@@ -48,7 +48,8 @@ struct JunctionTexture {
 
 /// Bakes the sources' colours onto the junction (the paper leaves that to future work, Sec. 7.2, and blurs
 /// vertex colours).
-/// 1. Charts by projection (`grow_charts`), packed at the density of the neighbours' textures.
+/// 1. Charts (`make_charts`: rings unrolled, the rest projected), packed at the density of the neighbours'
+/// textures.
 /// 2. For every texel the point on the junction, its shares between the sources (interpolated over the
 /// triangle, then flat
 ///    near 0 and 1, so that colours are exactly the neighbours' in the first texels beside a border), the

@@ -19,6 +19,7 @@ inline void add_quad(PolygonMesh& mesh, int a, int b, int c, int d) {
 /// Flat normals and one part without UVs and colours.
 inline void finish(PolygonMesh& mesh) {
   mesh.parts = {{"part", 0, true, false}};
+  mesh.normals.clear();
   for (std::size_t f = 0; f < mesh.face_count(); ++f)
     for (std::size_t c = 0; c < mesh.face(FaceId(f)).size(); ++c) {
       const Vec3 n = area_normal(mesh, FaceId(f));
@@ -51,6 +52,23 @@ inline PolygonMesh tube_mesh(int rings, int around, double first, double step, d
     for (int a = 0; a < around; ++a) {
       const int b = (a + 1) % around;
       add_quad(mesh, r * around + a, r * around + b, (r + 1) * around + b, (r + 1) * around + a);
+    }
+  finish(mesh);
+  return mesh;
+}
+
+/// A flat ring in z = 0 facing +z: circles of the given radii, `around` vertices each.
+inline PolygonMesh flat_ring(int around, const std::vector<double>& radii) {
+  PolygonMesh mesh;
+  for (const double radius : radii)
+    for (int a = 0; a < around; ++a) {
+      const double angle = 2 * std::numbers::pi * a / around;
+      mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+  for (int r = 0; r + 1 < static_cast<int>(radii.size()); ++r)
+    for (int a = 0; a < around; ++a) {
+      const int b = (a + 1) % around;
+      add_quad(mesh, r * around + a, (r + 1) * around + a, (r + 1) * around + b, r * around + b);
     }
   finish(mesh);
   return mesh;
