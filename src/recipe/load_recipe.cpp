@@ -1,0 +1,373 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "base/safe_name.h"
+#include "base/text.h"
+#include "recipe/recipe.h"
+#include "recipe/value_reader.h"
+
+namespace skinforge {
+namespace fs = std::filesystem;
+
+namespace {
+constexpr int kRecipeVersion = 1;
+constexpr std::size_t kMaxOperations = 10000;  // ours: refuses nonsense, not work
+constexpr std::size_t kMaxIncludeDepth = 16;   // ours: recipes in recipes in recipes
+constexpr double kMaxLength = 1e9;             // ours: metres and factors; keeps sums and products finite
+
+std::string extension_of(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+std::string read_recipe_text(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) throw Error(ExitCode::BadInput, path.string() + ": no such file");
+  if (!fs::is_regular_file(path, error))
+    throw Error(ExitCode::BadInput, path.string() + ": not a regular file");
+  if (const auto size = fs::file_size(path, error); !error && size > kMaxRecipeBytes)
+    throw text_error(path.string(), {},
+                     fmt::format("a recipe has at most {} bytes, this file has {}", kMaxRecipeBytes, size));
+  std::ifstream file(path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (!file) throw Error(ExitCode::BadInput, path.string() + ": cannot be read");
+  return text;
+}
+
+Value parse_text(const std::string& text, const fs::path& path) {
+  const std::string file = path.string(), extension = extension_of(path);
+  expect_recipe_text(text, file);
+  if (extension == ".yaml" || extension == ".yml") return parse_yaml_text(text, file);
+  if (extension == ".json" || extension == ".jsonc") return parse_json_text(text, file);
+  throw Error(ExitCode::Usage, file + ": a recipe ends in .json, .jsonc, .yaml or .yml");
+}
+
+void collect_places(const Value& value, const std::string& file, const std::string& pointer,
+                    std::map<std::string, std::string>& places) {
+  places[pointer] = fmt::format("{}:{}:{}", file, value.place.line, value.place.column);
+  for (const Value::Member& member : value.members)
+    collect_places(member.value, file, pointer_to(pointer, member.key), places);
+  for (std::size_t i = 0; i < value.items.size(); ++i)
+    collect_places(value.items[i], file, pointer_to(pointer, std::to_string(i)), places);
+}
+
+// Reads one recipe file; `including` are the files that led here, outermost first.
+class RecipeReader {
+ public:
+  RecipeReader(const fs::path& path, const std::vector<fs::path>& including)
+      : path_(path), including_(including) {}
+
+  Recipe read(const Value& root) {
+    recipe_.path = path_;
+    const std::string file = path_.string();
+    const ValueReader reader(root, file, "");
+    expect_version(reader);
+    const ObjectReader object = reader.object(
+        {"$schema", "recipe_version", "name", "inputs", "base", "ops", "surface", "animation", "output"});
+    if (const auto schema = object.find("$schema")) schema->text();
+    recipe_.name = safe_name(object.at("name"));
+    read_inputs(object.at("inputs"));
+    recipe_.base = input_name(object.at("base"));
+    if (const auto ops = object.find("ops")) read_operations(*ops);
+    if (const auto surface = object.find("surface")) recipe_.surface = read_surface(*surface);
+    if (const auto animation = object.find("animation")) recipe_.animation = read_animation(*animation);
+    recipe_.output.glb = recipe_.name + ".glb";
+    if (const auto output = object.find("output")) read_output(*output);
+    collect_places(root, file, "", recipe_.places);
+    return std::move(recipe_);
+  }
+
+ private:
+  static void expect_version(const ValueReader& reader) {
+    for (const auto& [key, value] : reader.members()) {
+      if (key != "recipe_version") continue;
+      if (value.number() == kRecipeVersion) return;
+      value.fail(
+          fmt::format("expected recipe version {}, found {}", kRecipeVersion, value.value().describe()));
+    }
+    reader.object(
+        {"$schema", "recipe_version", "name", "inputs", "base", "ops", "surface", "animation", "output"});
+    reader.fail(fmt::format("missing key \"recipe_version\" (this tool reads version {})", kRecipeVersion));
+  }
+
+  static std::string safe_name(const ValueReader& reader) {
+    const std::string name = reader.text();
+    if (!is_safe_file_name(name))
+      reader.fail(
+          fmt::format("\"{}\" cannot be a file name; take letters, digits and . _ - +", printable(name)));
+    return name;
+  }
+
+  std::string input_name(const ValueReader& reader) const {
+    const std::string name = reader.text();
+    std::vector<std::string> names;
+    for (const RecipeInput& input : recipe_.inputs) names.push_back(input.name);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      reader.fail(fmt::format("no input \"{}\"{}", printable(name), nearest_hint(name, names)));
+    return name;
+  }
+
+  static std::array<double, 3> vector3(const ValueReader& reader) {
+    const auto items = reader.items();
+    if (items.size() != 3) reader.fail_expected("a list of three numbers");
+    return {items[0].number(-kMaxLength, kMaxLength), items[1].number(-kMaxLength, kMaxLength),
+            items[2].number(-kMaxLength, kMaxLength)};
+  }
+
+  RecipePath read_path(const ValueReader& reader) const {
+    const std::string text = reader.text();
+    const auto refuse = [&](const char* why) {
+      reader.fail(fmt::format("path \"{}\" {}", printable(text), why));
+    };
+    if (std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
+      refuse("has control characters");
+    if (text.find('\\') != std::string::npos) refuse("has a backslash; write / between folders");
+    if (text.find("://") != std::string::npos) refuse("is an address; inputs are files");
+    if (fs::path(text).is_absolute()) refuse("is absolute; write it relative to the recipe");
+    return {text, (path_.parent_path() / text).lexically_normal()};
+  }
+
+  void read_inputs(const ValueReader& reader) {
+    for (const auto& [name, value] : reader.members()) {
+      if (!is_safe_file_name(name))
+        value.fail(fmt::format("input \"{}\" cannot be a file name; take letters, digits and . _ - +",
+                               printable(name)));
+      recipe_.inputs.push_back(read_input(name, value));
+    }
+    if (recipe_.inputs.empty()) reader.fail("expected at least one input");
+    std::sort(recipe_.inputs.begin(), recipe_.inputs.end(),
+              [](const RecipeInput& a, const RecipeInput& b) { return a.name < b.name; });
+  }
+
+  RecipeInput read_input(const std::string& name, const ValueReader& reader) const {
+    RecipeInput input;
+    input.name = name;
+    if (reader.is_string()) {
+      input.file = read_path(reader);
+      return input;
+    }
+    if (!reader.is_object()) reader.fail_expected("a path, or an object with \"file\" or \"recipe\"");
+    const ObjectReader object = reader.object({"file", "recipe", "clips", "pose", "root"});
+    const auto file = object.find("file"), recipe = object.find("recipe");
+    if (!file == !recipe) reader.fail("expected one of \"file\" and \"recipe\"");
+    input.file = read_path(file ? *file : *recipe);
+    if (recipe) input.recipe = std::make_shared<const Recipe>(included(*recipe, input.file.resolved));
+    if (const auto clips = object.find("clips"))
+      for (const ValueReader& clip : clips->items()) input.clips.push_back(read_path(clip));
+    if (const auto pose = object.find("pose"))
+      for (const auto& [joint, change] : pose->members()) input.pose[joint] = read_pose(change);
+    if (const auto root = object.find("root")) input.root = root->text();
+    return input;
+  }
+
+  static PoseChange read_pose(const ValueReader& reader) {
+    const ObjectReader object = reader.object({"rotate_deg", "translate"});
+    PoseChange change;
+    if (const auto rotate = object.find("rotate_deg")) change.rotate_deg = vector3(*rotate);
+    if (const auto translate = object.find("translate")) change.translate = vector3(*translate);
+    return change;
+  }
+
+  Recipe included(const ValueReader& reader, const fs::path& path) const;
+
+  void read_operations(const ValueReader& reader) {
+    const auto items = reader.items();
+    if (items.size() > kMaxOperations)
+      reader.fail(fmt::format("{} operations; at most {} are allowed", items.size(), kMaxOperations));
+    for (const ValueReader& item : items) recipe_.operations.push_back(read_operation(item));
+  }
+
+  RecipeOperation read_operation(const ValueReader& reader) const {
+    const ObjectReader object = reader.object({"op", "at", "from", "joint", "place", "blend"});
+    RecipeOperation operation;
+    operation.kind = object.at("op").choice<OperationKind>({{"replace", OperationKind::Replace},
+                                                            {"attach", OperationKind::Attach},
+                                                            {"remove", OperationKind::Remove},
+                                                            {"detach", OperationKind::Detach}});
+    operation.at = read_joints(object.at("at"));
+    const bool takes_many =
+        operation.kind == OperationKind::Replace || operation.kind == OperationKind::Remove;
+    if (!takes_many && operation.at.size() > 1) object.at("at").fail("this operation takes one joint");
+    const bool has_donor =
+        operation.kind == OperationKind::Replace || operation.kind == OperationKind::Attach;
+    if (has_donor)
+      read_donor(object, operation);
+    else
+      expect_no_donor(object);
+    return operation;
+  }
+
+  static std::vector<std::string> read_joints(const ValueReader& reader) {
+    if (reader.is_string()) return {reader.text()};
+    if (!reader.is_array()) reader.fail_expected("a joint, or a list of joints");
+    std::vector<std::string> joints;
+    for (const ValueReader& item : reader.items()) {
+      const std::string joint = item.text();
+      if (std::find(joints.begin(), joints.end(), joint) != joints.end())
+        item.fail("joint \"" + printable(joint) + "\" is listed twice");
+      joints.push_back(joint);
+    }
+    if (joints.empty()) reader.fail("expected at least one joint");
+    return joints;
+  }
+
+  static void expect_no_donor(const ObjectReader& object) {
+    for (const char* key : {"from", "joint", "place", "blend"})
+      if (const auto extra = object.find(key))
+        extra->fail(
+            fmt::format("\"{}\" has no meaning here: this operation takes nothing from an input", key));
+  }
+
+  void read_donor(const ObjectReader& object, RecipeOperation& operation) const {
+    operation.from = input_name(object.at("from"));
+    operation.joint = object.at("joint").text();
+    if (const auto place = object.find("place")) operation.place = read_placement(*place);
+    if (const auto blend = object.find("blend"))
+      operation.blend = blend->choice<Blend>({{"auto", Blend::Auto},
+                                              {"blend", Blend::Blend},
+                                              {"union", Blend::Union},
+                                              {"paper", Blend::Paper},
+                                              {"smin", Blend::Smin},
+                                              {"gradient", Blend::Gradient}});
+    const bool changes_nothing = operation.kind == OperationKind::Replace && operation.from == recipe_.base &&
+                                 operation.at == std::vector{operation.joint} &&
+                                 operation.place == Placement();
+    if (changes_nothing)
+      object.reader().fail("this replaces joint \"" + printable(operation.joint) +
+                           "\" of the base by itself");
+  }
+
+  static Placement read_placement(const ValueReader& reader) {
+    const ObjectReader object = reader.object({"align", "scale", "rotate_deg", "offset"});
+    Placement place;
+    if (const auto align = object.find("align"))
+      place.align =
+          align->choice<Align>({{"joint", Align::Joint}, {"loop", Align::Loop}, {"none", Align::None}});
+    if (const auto scale = object.find("scale")) read_scale(*scale, place);
+    if (const auto rotate = object.find("rotate_deg")) place.rotate_deg = vector3(*rotate);
+    if (const auto offset = object.find("offset")) place.offset = vector3(*offset);
+    return place;
+  }
+
+  static void read_scale(const ValueReader& reader, Placement& place) {
+    if (reader.is_string() && reader.value().text == "loop") {
+      place.scale_by_loop = true;
+      return;
+    }
+    if (reader.is_string()) reader.fail_expected("a number or \"loop\"");
+    place.scale = reader.number();
+    if (place.scale <= 0 || place.scale > kMaxLength)
+      reader.fail_expected(fmt::format("a number above 0 and up to {}", kMaxLength));
+  }
+
+  static SurfaceOptions read_surface(const ValueReader& reader) {
+    const ObjectReader object = reader.object({"voxel_factor", "presence_smoothing", "keep_or_drop"});
+    SurfaceOptions options;
+    if (const auto factor = object.find("voxel_factor")) options.voxel_factor = factor->number(0.1, 4);
+    if (const auto passes = object.find("presence_smoothing"))
+      options.presence_smoothing = passes->integer(0, 99);
+    if (const auto rule = object.find("keep_or_drop")) {
+      const ObjectReader parts = rule->object({"variance", "mean"});
+      if (const auto variance = parts.find("variance"))
+        options.keep_or_drop.variance = variance->number(0, 0.25);
+      if (const auto mean = parts.find("mean")) options.keep_or_drop.mean = mean->number(0, 1);
+    }
+    return options;
+  }
+
+  static AnimationOptions read_animation(const ValueReader& reader) {
+    const ObjectReader object = reader.object({"clips", "complete", "rate_hz"});
+    AnimationOptions options;
+    if (const auto clips = object.find("clips")) read_clips(*clips, options);
+    if (const auto complete = object.find("complete")) options.complete = complete->boolean();
+    if (const auto rate = object.find("rate_hz")) options.rate_hz = rate->number(1, 240);
+    return options;
+  }
+
+  static void read_clips(const ValueReader& reader, AnimationOptions& options) {
+    if (reader.is_string() && reader.value().text == "all") return;
+    if (!reader.is_array()) reader.fail_expected("\"all\" or a list of clip names");
+    options.all_clips = false;
+    for (const ValueReader& item : reader.items()) {
+      const std::string clip = item.text();
+      if (std::find(options.clips.begin(), options.clips.end(), clip) != options.clips.end())
+        item.fail("clip \"" + printable(clip) + "\" is listed twice");
+      options.clips.push_back(clip);
+    }
+  }
+
+  void read_output(const ValueReader& reader) {
+    const ObjectReader object = reader.object({"glb", "obj", "vdb", "influences"});
+    OutputOptions& output = recipe_.output;
+    if (const auto glb = object.find("glb")) output.glb = output_name(*glb, ".glb");
+    if (const auto obj = object.find("obj")) output.obj = output_name(*obj, ".obj");
+    if (const auto vdb = object.find("vdb")) output.vdb = output_name(*vdb, ".vdb");
+    if (const auto influences = object.find("influences")) {
+      output.influences = influences->integer(4, 8);
+      if (output.influences != 4 && output.influences != 8) influences->fail_expected("4 or 8");
+    }
+  }
+
+  static std::string output_name(const ValueReader& reader, const std::string& extension) {
+    const std::string name = reader.text();
+    if (!is_safe_relative_path(name))
+      reader.fail(
+          fmt::format("output \"{}\" must be a plain path inside the output folder", printable(name)));
+    if (extension_of(name) != extension)
+      reader.fail(fmt::format("output \"{}\" must end in {}", name, extension));
+    return name;
+  }
+
+  fs::path path_;
+  std::vector<fs::path> including_;
+  Recipe recipe_;
+};
+
+Recipe read_recipe(const std::string& text, const fs::path& path, const std::vector<fs::path>& including) {
+  return RecipeReader(path, including).read(parse_text(text, path));
+}
+
+Recipe RecipeReader::included(const ValueReader& reader, const fs::path& path) const {
+  std::vector<fs::path> chain = including_;
+  chain.push_back(path_);
+  std::error_code error;
+  for (const fs::path& file : chain)
+    if (fs::equivalent(file, path, error))
+      reader.fail("recipe \"" + printable(path.string()) + "\" includes itself");
+  if (chain.size() > kMaxIncludeDepth)
+    reader.fail(fmt::format("recipes inside each other deeper than {}", kMaxIncludeDepth));
+  return read_recipe(read_recipe_text(path), path, chain);
+}
+}  // namespace
+
+std::size_t Recipe::input_index(const std::string& input) const {
+  const auto found =
+      std::find_if(inputs.begin(), inputs.end(), [&](const RecipeInput& i) { return i.name == input; });
+  if (found == inputs.end()) throw Error(ExitCode::Internal, "no input \"" + input + "\"");
+  return static_cast<std::size_t>(found - inputs.begin());
+}
+
+std::string Recipe::place(const std::string& pointer) const {
+  std::string enclosing = pointer;
+  auto found = places.find(enclosing);
+  while (found == places.end() && !enclosing.empty()) {
+    enclosing.erase(enclosing.rfind('/'));
+    found = places.find(enclosing);
+  }
+  return (found == places.end() ? path.string() : found->second) + ": " + pointer;
+}
+
+Recipe load_recipe(const fs::path& path) {
+  return read_recipe(read_recipe_text(path), path, {});
+}
+
+Recipe parse_recipe(const std::string& text, const fs::path& path) {
+  return read_recipe(text, path, {});
+}
+
+}  // namespace skinforge

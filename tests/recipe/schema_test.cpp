@@ -1,0 +1,221 @@
+#include "recipe/schema.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "recipe/recipe.h"
+#include "recipe/value_tree.h"
+#include "testing/assets.h"
+
+namespace skinforge {
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json schema() {
+  return json::parse(recipe_schema());
+}
+
+bool is_valid(const json& schema_json, const json& document) {
+  valijson::Schema compiled;
+  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_json), compiled);
+  return valijson::Validator().validate(compiled, valijson::adapters::NlohmannJsonAdapter(document), nullptr);
+}
+
+json to_json(const Value& value) {
+  switch (value.kind) {
+    case Value::Kind::Null:
+      return nullptr;
+    case Value::Kind::Bool:
+      return value.boolean;
+    case Value::Kind::Number:
+      return json::parse(value.text);
+    case Value::Kind::String:
+      return value.text;
+    case Value::Kind::Array: {
+      json items = json::array();
+      for (const Value& item : value.items) items.push_back(to_json(item));
+      return items;
+    }
+    case Value::Kind::Object: {
+      json object = json::object();
+      for (const auto& member : value.members) object[member.key] = to_json(member.value);
+      return object;
+    }
+  }
+  return {};
+}
+
+std::string read_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool parser_accepts(const std::string& text) {
+  try {
+    parse_recipe(text, "x.json");
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// skinforge schema > schemas/recipe.schema.json
+TEST(RecipeSchema, TheFileIsWhatTheCodeSays) {
+  EXPECT_EQ(read_text(testing::repository_file("schemas/recipe.schema.json")), recipe_schema());
+}
+
+void for_each_property(const json& node, const std::string& place,
+                       const std::function<void(const std::string&, const json&)>& visit) {
+  if (node.is_object() && node.contains("properties") && node.contains("additionalProperties"))
+    for (const auto& [name, property] : node.at("properties").items()) visit(place + "/" + name, property);
+  if (node.is_structured())
+    for (const auto& [key, child] : node.items()) for_each_property(child, place + "/" + key, visit);
+}
+
+TEST(RecipeSchema, EveryPropertyIsExplained) {
+  int count = 0;
+  for_each_property(schema(), "", [&](const std::string& place, const json& property) {
+    SCOPED_TRACE(place);
+    ++count;
+    EXPECT_TRUE(property.contains("description"));
+    ASSERT_TRUE(property.contains("examples"));
+    for (const json& example : property.at("examples")) EXPECT_TRUE(is_valid(property, example)) << example;
+    EXPECT_TRUE(!property.contains("default") || is_valid(property, property.at("default")));
+    const std::string type = property.value("type", "");
+    const bool is_number = type == "number" || type == "integer";
+    EXPECT_TRUE(!is_number || property.contains("unit"));
+    EXPECT_TRUE(!(is_number || type == "boolean") || property.contains("default"));
+  });
+  EXPECT_EQ(count,
+            38);  // 9 of the recipe, 5 + 2 of an input, 6 + 4 of an operation, 3 + 2, 3 and 4 of the rest
+}
+
+struct Case {
+  const char* what;
+  std::string text;
+  bool is_good = false;
+};
+
+std::string operation(const std::string& body) {
+  return R"({"recipe_version": 1, "name": "x", "inputs": {"a": "a.glb", "b": "b.glb"}, "base": "a", "ops": [{)" +
+         body + "}]}";
+}
+std::string member(const std::string& body) {
+  return R"({"recipe_version": 1, "name": "x", "inputs": {"a": "a.glb"}, "base": "a", )" + body + "}";
+}
+std::string head(const std::string& body) {
+  return "{" + body + "}";
+}
+const std::string kPart = R"("op": "replace", "at": "j", "from": "b", "joint": "k", )";
+
+TEST(RecipeSchema, AgreesWithTheParser) {
+  const json compiled = schema();
+  const std::vector<Case> cases = {
+      {"smallest", head(R"("recipe_version": 1, "name": "x", "inputs": {"a": "a.glb"}, "base": "a")"), true},
+      {"replace", operation(R"("op": "replace", "at": ["j", "k"], "from": "b", "joint": "k")"), true},
+      {"attach one in a list", operation(R"("op": "attach", "at": ["j"], "from": "b", "joint": "k")"), true},
+      {"remove", operation(R"("op": "remove", "at": ["j", "k"])"), true},
+      {"placement", operation(kPart + R"("place": {"align": "none", "scale": 2, "rotate_deg": [1, 2, 3]})"),
+       true},
+      {"scale by loop", operation(kPart + R"("place": {"scale": "loop"}, "blend": "gradient")"), true},
+      {"all options",
+       member(R"("surface": {"voxel_factor": 1, "presence_smoothing": 0, "keep_or_drop": {"mean": 0}},
+                 "animation": {"clips": [], "complete": false, "rate_hz": 60}, "output": {"glb": "a/b.glb", "influences": 8})"),
+       true},
+      {"input object",
+       head(
+           R"("recipe_version": 1, "name": "x", "base": "a", "inputs": {"a": {"file": "a.glb", "clips": ["c.fbx"],
+               "root": "Hips", "pose": {"Head": {"rotate_deg": [1, 2, 3]}}}})"),
+       true},
+      {"no version", head(R"("name": "x", "inputs": {"a": "a.glb"}, "base": "a")")},
+      {"other version", head(R"("recipe_version": 2, "name": "x", "inputs": {"a": "a.glb"}, "base": "a")")},
+      {"no name", head(R"("recipe_version": 1, "inputs": {"a": "a.glb"}, "base": "a")")},
+      {"no base", head(R"("recipe_version": 1, "name": "x", "inputs": {"a": "a.glb"})")},
+      {"unsafe name", head(R"("recipe_version": 1, "name": "../x", "inputs": {"a": "a.glb"}, "base": "a")")},
+      {"no inputs", head(R"("recipe_version": 1, "name": "x", "inputs": {}, "base": "a")")},
+      {"input of wrong type", head(R"("recipe_version": 1, "name": "x", "inputs": {"a": 1}, "base": "a")")},
+      {"input without file", head(R"("recipe_version": 1, "name": "x", "inputs": {"a": {}}, "base": "a")")},
+      {"file and recipe",
+       head(
+           R"("recipe_version": 1, "name": "x", "inputs": {"a": {"file": "f", "recipe": "r"}}, "base": "a")")},
+      {"absolute input",
+       head(R"("recipe_version": 1, "name": "x", "inputs": {"a": "/dev/zero"}, "base": "a")")},
+      {"backslash", head(R"("recipe_version": 1, "name": "x", "inputs": {"a": "..\\a.glb"}, "base": "a")")},
+      {"address",
+       head(R"("recipe_version": 1, "name": "x", "inputs": {"a": "http://h/a.glb"}, "base": "a")")},
+      {"unsafe input name",
+       head(R"("recipe_version": 1, "name": "x", "inputs": {"a/b": "a.glb"}, "base": "a/b")")},
+      {"unknown key", member(R"("operatons": [])")},
+      {"unknown key in place", operation(kPart + R"("place": {"rotate": [0, 0, 0]})")},
+      {"unknown operation", operation(R"("op": "explode", "at": "j")")},
+      {"no at", operation(R"("op": "remove")")},
+      {"empty at", operation(R"("op": "remove", "at": [])")},
+      {"at twice", operation(R"("op": "remove", "at": ["j", "j"])")},
+      {"at of wrong type", operation(R"("op": "remove", "at": 5)")},
+      {"detach of two", operation(R"("op": "detach", "at": ["j", "k"])")},
+      {"attach to two", operation(R"("op": "attach", "at": ["j", "k"], "from": "b", "joint": "k")")},
+      {"replace without from", operation(R"("op": "replace", "at": "j", "joint": "k")")},
+      {"remove with from", operation(R"("op": "remove", "at": "j", "from": "b")")},
+      {"scale zero", operation(kPart + R"("place": {"scale": 0})")},
+      {"scale word", operation(kPart + R"("place": {"scale": "big"})")},
+      {"two numbers", operation(kPart + R"("place": {"offset": [0, 0]})")},
+      {"text in a vector", operation(kPart + R"("place": {"offset": [0, 0, "x"]})")},
+      {"blend", operation(kPart + R"("blend": "soft")")},
+      {"voxel factor", member(R"("surface": {"voxel_factor": 0})")},
+      {"half a pass", member(R"("surface": {"presence_smoothing": 1.5})")},
+      {"clips word", member(R"("animation": {"clips": "none"})")},
+      {"rate", member(R"("animation": {"rate_hz": 0})")},
+      {"complete", member(R"("animation": {"complete": "yes"})")},
+      {"influences", member(R"("output": {"influences": 5})")},
+      {"output leaves", member(R"("output": {"glb": "../x.glb"})")},
+      {"output absolute", member(R"("output": {"glb": "/tmp/x.glb"})")},
+      {"output extension", member(R"("output": {"obj": "x.glb"})")},
+  };
+  for (const Case& c : cases) {
+    EXPECT_EQ(parser_accepts(c.text), c.is_good) << "parser: " << c.what;
+    EXPECT_EQ(is_valid(compiled, json::parse(c.text)), c.is_good) << "schema: " << c.what;
+  }
+}
+
+// What a schema cannot say: the parser alone refuses these.
+TEST(RecipeSchema, LeavesReferencesToTheParser) {
+  const json compiled = schema();
+  for (const std::string& text :
+       {member(R"("ops": [{"op": "replace", "at": "j", "from": "nobody", "joint": "k"}])"),
+        head(R"("recipe_version": 1, "name": "x", "inputs": {"a": "a.glb"}, "base": "b")"),
+        head(R"("recipe_version": 1, "name": "con", "inputs": {"a": "a.glb"}, "base": "a")"),
+        operation(R"("op": "replace", "at": "j", "from": "a", "joint": "j")")}) {
+    EXPECT_TRUE(is_valid(compiled, json::parse(text))) << text;
+    EXPECT_FALSE(parser_accepts(text)) << text;
+  }
+}
+
+TEST(RecipeSchema, AcceptsTheRepositorysRecipes) {
+  const json compiled = schema();
+  for (const auto& item : fs::directory_iterator(testing::repository_file("recipes"))) {
+    if (item.path().extension() != ".json" && item.path().extension() != ".yaml") continue;
+    SCOPED_TRACE(item.path());
+    load_recipe(item.path());
+    const std::string text = read_text(item.path());
+    const bool is_yaml = item.path().extension() == ".yaml";
+    EXPECT_TRUE(is_valid(compiled, to_json(is_yaml ? parse_yaml_text(text, "") : parse_json_text(text, ""))));
+  }
+}
+
+TEST(RecipeSchema, AcceptsAllSharedRecipes) {
+  SKINFORGE_NEEDS_SHARED();
+  const json compiled = schema();
+  for (const auto& item : fs::directory_iterator(testing::shared_file("recipes")))
+    EXPECT_TRUE(is_valid(compiled, json::parse(read_text(item.path())))) << item.path();
+}
+
+}  // namespace
+}  // namespace skinforge
