@@ -1,0 +1,1 @@
+"""The sample characters of data/: control cages, rigs, paint and clips, written through Blender."""
