@@ -207,14 +207,15 @@ class GltfEvaluator {
   }
 
   static Eigen::Quaterniond slerp(const Eigen::Quaterniond& a, Eigen::Quaterniond b, double t) {
-    double cosine = a.dot(b);
-    if (cosine < 0) b.coeffs() = -b.coeffs();
-    cosine = std::min(std::abs(cosine), 1.0);
-    const double angle = std::acos(cosine), sine = std::sin(angle);
-    if (sine < 1e-9) return a;
+    if (a.dot(b) < 0) b.coeffs() = -b.coeffs();
+    const double angle = 2 * std::atan2((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
+    const double sine = std::sin(angle);
     Eigen::Quaterniond result;
-    result.coeffs() =
-        a.coeffs() * (std::sin((1 - t) * angle) / sine) + b.coeffs() * (std::sin(t * angle) / sine);
+    if (sine < 1e-6)  // the limit of the formula below, to 1e-12
+      result.coeffs() = (1 - t) * a.coeffs() + t * b.coeffs();
+    else
+      result.coeffs() =
+          a.coeffs() * (std::sin((1 - t) * angle) / sine) + b.coeffs() * (std::sin(t * angle) / sine);
     return result.normalized();
   }
 
