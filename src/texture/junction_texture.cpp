@@ -274,12 +274,12 @@ Vec3 blended_color(const JunctionSurface& junction, const JunctionTriangle& tria
 // Linear colour of every mapped texel.
 std::vector<Vec3> bake_texels(const JunctionSurface& junction, std::span<const JunctionTriangle> triangles,
                               std::span<const TextureSource> sources, const std::vector<TexelPoint>& map,
-                              int size, double mean_edge) {
+                              int width, double mean_edge) {
   std::vector<Vec3> colors(map.size(), Vec3::Zero());
-  parallel_for(static_cast<std::size_t>(size), [&](std::size_t row) {
+  parallel_for(map.size() / width, [&](std::size_t row) {
     std::vector<SourceProbe> probes;
     for (const TextureSource& source : sources) probes.emplace_back(source, mean_edge);
-    for (std::size_t i = row * size; i < (row + 1) * size; ++i)
+    for (std::size_t i = row * width; i < (row + 1) * width; ++i)
       if (map[i].triangle >= 0)
         colors[i] = blended_color(junction, triangles[map[i].triangle], map[i].barycentric, sources, probes);
   });
@@ -299,8 +299,8 @@ std::optional<Vec3> only_color(const std::vector<Vec3>& colors, const std::vecto
   return Vec3((*low + *high) / 2);
 }
 
-Raster encoded(const std::vector<Vec3>& colors, const std::vector<TexelPoint>& map, int size) {
-  Raster raster{size, size, std::vector<std::uint8_t>(4 * map.size(), 255)};
+Raster encoded(const std::vector<Vec3>& colors, const std::vector<TexelPoint>& map, int width) {
+  Raster raster{width, static_cast<int>(map.size()) / width, std::vector<std::uint8_t>(4 * map.size(), 255)};
   std::vector<bool> is_set(map.size());
   for (std::size_t i = 0; i < map.size(); ++i) {
     is_set[i] = map[i].triangle >= 0;
@@ -331,8 +331,8 @@ JunctionTexture bake_junction_texture(const JunctionSurface& junction, std::span
   std::vector<std::array<Vec2, 3>> flat;
   for (const JunctionTriangle& t : triangles)
     flat.push_back({texels[t.slots[0]], texels[t.slots[1]], texels[t.slots[2]]});
-  const auto map = map_texels(flat, packing.size, options.gutter + 0.5);
-  const auto colors = bake_texels(junction, triangles, sources, map, packing.size, mean_edge);
+  const auto map = map_texels(flat, packing.width, packing.height, options.gutter + 0.5);
+  const auto colors = bake_texels(junction, triangles, sources, map, packing.width, mean_edge);
 
   result.charts = charts.size();
   if (const auto color = only_color(colors, map)) {
@@ -340,8 +340,8 @@ JunctionTexture bake_junction_texture(const JunctionSurface& junction, std::span
     return result;
   }
   result.texels_per_metre = packing.texels_per_metre;
-  for (const Vec2& t : texels) result.uv.push_back(t / packing.size);
-  result.base_color = encoded(colors, map, packing.size);
+  for (const Vec2& t : texels) result.uv.push_back(t.cwiseQuotient(Vec2(packing.width, packing.height)));
+  result.base_color = encoded(colors, map, packing.width);
   TextureRef& texture = result.material.base_color_texture.emplace();
   texture.wrap_u = texture.wrap_v = Wrap::ClampToEdge;
   return result;

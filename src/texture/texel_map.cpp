@@ -54,13 +54,14 @@ std::pair<int, int> texel_range(double low, double high, double reach, int size)
 
 // One level of the pyramid: colour sums and how much of the square is known.
 struct Level {
-  int size = 0;
+  int width = 0;
+  int height = 0;
   std::vector<Vec4> color;
   std::vector<double> known;
 };
 
 Level base_level(const Raster& raster, const std::vector<bool>& is_set) {
-  Level level{raster.width, std::vector<Vec4>(is_set.size(), Vec4::Zero()),
+  Level level{raster.width, raster.height, std::vector<Vec4>(is_set.size(), Vec4::Zero()),
               std::vector<double>(is_set.size(), 0)};
   for (std::size_t i = 0; i < is_set.size(); ++i) {
     if (!is_set[i]) continue;
@@ -71,19 +72,23 @@ Level base_level(const Raster& raster, const std::vector<bool>& is_set) {
   return level;
 }
 
+// The texel of the next level that texel `i` of `fine` is part of.
+std::size_t coarser_texel(const Level& fine, const Level& coarse, std::size_t i) {
+  const int x = static_cast<int>(i) % fine.width, y = static_cast<int>(i) / fine.width;
+  return static_cast<std::size_t>(std::min(y / 2, coarse.height - 1)) * coarse.width +
+         std::min(x / 2, coarse.width - 1);
+}
+
 Level half(const Level& fine) {
-  Level level;
-  level.size = fine.size / 2;
-  const auto count = static_cast<std::size_t>(level.size) * level.size;
+  Level level{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}, {}};
+  const auto count = static_cast<std::size_t>(level.width) * level.height;
   level.color.assign(count, Vec4::Zero());
   level.known.assign(count, 0);
-  for (int y = 0; y < fine.size; ++y)
-    for (int x = 0; x < fine.size; ++x) {
-      const auto from = static_cast<std::size_t>(y) * fine.size + x;
-      const auto to = static_cast<std::size_t>(y / 2) * level.size + x / 2;
-      level.color[to] += fine.known[from] * fine.color[from];
-      level.known[to] += fine.known[from];
-    }
+  for (std::size_t from = 0; from < fine.color.size(); ++from) {
+    const std::size_t to = coarser_texel(fine, level, from);
+    level.color[to] += fine.known[from] * fine.color[from];
+    level.known[to] += fine.known[from];
+  }
   for (std::size_t i = 0; i < count; ++i) {
     if (!(level.known[i] > 0)) continue;
     level.color[i] /= level.known[i];
@@ -94,18 +99,19 @@ Level half(const Level& fine) {
 
 }  // namespace
 
-std::vector<TexelPoint> map_texels(std::span<const std::array<Vec2, 3>> triangles, int size, double reach) {
-  const auto count = static_cast<std::size_t>(size) * size;
+std::vector<TexelPoint> map_texels(std::span<const std::array<Vec2, 3>> triangles, int width, int height,
+                                   double reach) {
+  const auto count = static_cast<std::size_t>(width) * height;
   std::vector<TexelPoint> map(count);
   std::vector<double> distance2(count, std::nextafter(reach * reach, 1e300));
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const Triangle2& t = triangles[i];
     const Vec2 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
-    const auto [left, right] = texel_range(low.x(), high.x(), reach, size);
-    const auto [top, bottom] = texel_range(low.y(), high.y(), reach, size);
+    const auto [left, right] = texel_range(low.x(), high.x(), reach, width);
+    const auto [top, bottom] = texel_range(low.y(), high.y(), reach, height);
     for (int y = top; y <= bottom; ++y)
       for (int x = left; x <= right; ++x) {
-        const auto at = static_cast<std::size_t>(y) * size + x;
+        const auto at = static_cast<std::size_t>(y) * width + x;
         const Vec2 center(x + 0.5, y + 0.5);
         const Vec3 barycentric = nearest_in_triangle(t, center);
         const double d2 = (point_at(t, barycentric) - center).squaredNorm();
@@ -118,17 +124,15 @@ std::vector<TexelPoint> map_texels(std::span<const std::array<Vec2, 3>> triangle
 }
 
 void fill_unset(Raster& raster, std::vector<bool> is_set) {
-  SF_EXPECT(raster.width == raster.height && (raster.width & (raster.width - 1)) == 0);
+  SF_EXPECT((raster.width & (raster.width - 1)) == 0 && (raster.height & (raster.height - 1)) == 0);
   std::vector<Level> levels = {base_level(raster, is_set)};
-  while (levels.back().size > 1) levels.push_back(half(levels.back()));
+  while (levels.back().color.size() > 1) levels.push_back(half(levels.back()));
   if (!(levels.back().known[0] > 0)) levels.back().color[0] = Vec4::Constant(255);
   for (std::size_t l = levels.size() - 1; l-- > 0;) {
     Level& fine = levels[l];
     const Level& coarse = levels[l + 1];
     for (std::size_t i = 0; i < fine.color.size(); ++i) {
-      if (fine.known[i] > 0) continue;
-      const std::size_t x = i % fine.size, y = i / fine.size;
-      fine.color[i] = coarse.color[(y / 2) * coarse.size + x / 2];
+      if (!(fine.known[i] > 0)) fine.color[i] = coarse.color[coarser_texel(fine, coarse, i)];
     }
   }
   for (std::size_t i = 0; i < is_set.size(); ++i) {

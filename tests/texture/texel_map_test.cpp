@@ -12,7 +12,7 @@ constexpr double kRounding = 1e-12;  // a few products in double
 // nothing.
 TEST(MapTexels, InsideRimAndNothing) {
   const std::vector<std::array<Vec2, 3>> triangles = {{Vec2(2.5, 2.5), Vec2(6.5, 2.5), Vec2(2.5, 6.5)}};
-  const auto map = map_texels(triangles, 16, 2);
+  const auto map = map_texels(triangles, 16, 16, 2);
   const auto at = [&](int x, int y) { return map[static_cast<std::size_t>(y) * 16 + x]; };
   EXPECT_LT((at(2, 2).barycentric - Vec3(1, 0, 0)).norm(), kRounding);
   EXPECT_LT((at(4, 2).barycentric - Vec3(0.5, 0.5, 0)).norm(), kRounding);
@@ -26,7 +26,7 @@ TEST(MapTexels, InsideRimAndNothing) {
 TEST(MapTexels, NearerTriangleWinsAndDegenerateOnesCount) {
   const std::vector<std::array<Vec2, 3>> triangles = {{Vec2(2.5, 2.5), Vec2(2.5, 2.5), Vec2(2.5, 2.5)},
                                                       {Vec2(6.5, 0.5), Vec2(9.5, 0.5), Vec2(6.5, 5.5)}};
-  const auto map = map_texels(triangles, 16, 4);
+  const auto map = map_texels(triangles, 16, 8, 4);
   EXPECT_EQ(map[2 * 16 + 3].triangle, 0);
   EXPECT_EQ(map[2 * 16 + 5].triangle, 1);
 }
@@ -47,6 +47,16 @@ TEST(FillUnset, TakesTheMeanOfItsSurroundings) {
   EXPECT_EQ(raster.rgba[4 * (4 + 1)], 60);      // (30 + 60 + 90) / 3
   EXPECT_EQ(raster.rgba[4 * (3 * 4 + 3)], 60);  // the only known quarter
   EXPECT_EQ(raster.rgba[0], 30) << "known texels stay";
+}
+
+// A row of eight: the known left end fills all of it.
+TEST(FillUnset, WorksOnStrips) {
+  Raster raster{8, 1, std::vector<std::uint8_t>(32, 255)};
+  raster.rgba[0] = 9;
+  std::vector<bool> is_set(8, false);
+  is_set[0] = true;
+  fill_unset(raster, is_set);
+  for (int x = 0; x < 8; ++x) EXPECT_EQ(raster.rgba[4 * x], 9);
 }
 
 TEST(FillUnset, NothingKnownIsWhite) {

@@ -85,13 +85,13 @@ TEST(UnrollAnnulus, BumpyTubeStaysValid) {
   }
 }
 
-// A disc has one border, a closed box none, a wide flat ring would be stretched four times: all left to
-// projection.
+// A disc has one border; a flat ring from radius 1 to 200 would be squeezed to a fraction at its rim; a face
+// that is there twice makes no surface: all left to projection.
 TEST(UnrollAnnulus, RefusesWhatIsNoTube) {
   EXPECT_FALSE(unroll(testing::flat_grid(3, 3)).has_value());
   EXPECT_FALSE(unroll(testing::flat_ring(16, {1, 5, 30, 200})).has_value());
   PolygonMesh doubled = tube_mesh(3, 8, 0, 1, 1);
-  testing::add_quad(doubled, 0, 1, 9, 8);  // a face twice: not a surface
+  testing::add_quad(doubled, 0, 1, 9, 8);
   testing::finish(doubled);
   EXPECT_FALSE(unroll(doubled).has_value());
 }
