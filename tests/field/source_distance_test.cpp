@@ -1,0 +1,107 @@
+#include "field/source_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "testing/fields.h"
+#include "testing/shapes.h"
+
+namespace skinforge {
+namespace {
+
+using testing::Soup;
+
+constexpr double kFloat = 1e-6;  // stored in float, of size 1
+
+// Presence that rises along x from 0 at -1 to 1 at 1.
+std::vector<double> ramp(const Soup& s) {
+  std::vector<double> presence;
+  for (const Vec3& p : s.positions) presence.push_back(std::clamp(p.x() / 2 + 0.5, 0.0, 1.0));
+  return presence;
+}
+
+SourceSamples sample(const Lattice& lattice, const Soup& s, double band) {
+  return sample_source(lattice, TriangleBvh(s.positions, s.triangles), s.triangles, ramp(s), band);
+}
+
+// Cube [0, 2]^3 by hand: inside, outside, beyond the band.
+TEST(SampleSource, CubeByHand) {
+  const Lattice lattice{.origin = Vec3(-4, 1, 1), .voxel = 0.5, .size = {15, 1, 1}};
+  const SourceSamples samples = sample(lattice, testing::cube_soup(2), 1.25);
+  const std::vector<float> expected = {1.25f, 1.25f, 1.25f, 1.25f, 1.25f, 1.25f, 1, 0.5f,
+                                       0,     -0.5f, -1,    -0.5f, 0,     0.5f,  1};
+  ASSERT_EQ(samples.distance.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(samples.distance[i], expected[i], kFloat);
+  EXPECT_NEAR(samples.presence[7], 0.5, kFloat);  // nearest point x = 0
+  EXPECT_NEAR(samples.presence[13], 1, kFloat);   // nearest point x = 2
+}
+
+// What the blocks answer equals what each point would be told.
+TEST(SampleSource, MatchesQueriesOfEveryPoint) {
+  const Soup knot = testing::torus_knot_soup(80, 8);
+  const TriangleBvh bvh(knot.positions, knot.triangles);
+  const std::vector<double> presence = ramp(knot);
+  Lattice lattice = testing::centred_lattice(37, 3.7);
+  lattice.size = {37, 30, 21};
+  const double band = 4 * lattice.voxel;
+  const SourceSamples samples = sample_source(lattice, bvh, knot.triangles, presence, band);
+  for (int k = 0; k < lattice.size[2]; ++k)
+    for (int j = 0; j < lattice.size[1]; ++j)
+      for (int i = 0; i < lattice.size[0]; ++i) {
+        const Vec3 p = lattice.point(i, j, k);
+        const ClosestPoint nearest = bvh.closest(p);
+        const double length = std::min(nearest.distance, band);
+        const double signed_length = bvh.winding_number(p) > 0.5 ? -length : length;
+        ASSERT_NEAR(samples.distance[lattice.index(i, j, k)], signed_length, kFloat);
+        if (nearest.distance > band) continue;
+        double expected = 0;
+        for (int c = 0; c < 3; ++c)
+          expected += nearest.barycentric[c] * presence[knot.triangles[nearest.triangle][c]];
+        ASSERT_NEAR(samples.presence[lattice.index(i, j, k)], expected, 10 * kFloat);
+      }
+}
+
+// A sphere with a hole in its top: still a solid whose lid is where the winding number passes one half.
+TEST(SampleSource, OpenMeshKeepsItsInside) {
+  Soup sphere = testing::sphere_soup(16);
+  std::erase_if(sphere.triangles, [&](const auto& t) {
+    return std::any_of(t.begin(), t.end(), [&](int v) { return sphere.positions[v].y() > 0.85; });
+  });
+  const TriangleBvh bvh(sphere.positions, sphere.triangles);
+  const Lattice lattice = testing::centred_lattice(33, 1.6);
+  const SourceSamples samples = sample_source(lattice, bvh, sphere.triangles, ramp(sphere), 0.4);
+  int inside = 0;
+  for (int k = 0; k < 33; ++k)
+    for (int j = 0; j < 33; ++j)
+      for (int i = 0; i < 33; ++i) {
+        const Vec3 p = lattice.point(i, j, k);
+        const bool is_inside = samples.distance[lattice.index(i, j, k)] < 0;
+        inside += is_inside;
+        ASSERT_EQ(is_inside, bvh.winding_number(p) > 0.5) << p.transpose();
+      }
+  EXPECT_GT(inside * std::pow(lattice.voxel, 3), 3.6);  // the full ball has 4.19
+}
+
+TEST(SampleSource, SameBitsForAnyNumberOfThreads) {
+  const Soup knot = testing::torus_knot_soup(60, 8);
+  const Lattice lattice = testing::centred_lattice(50, 3.7);
+  set_thread_limit(1);
+  const SourceSamples one = sample(lattice, knot, 0.5);
+  set_thread_limit(4);
+  const SourceSamples four = sample(lattice, knot, 0.5);
+  EXPECT_EQ(one.distance, four.distance);
+  EXPECT_EQ(one.presence, four.presence);
+}
+
+TEST(SampleSource, NoTrianglesAndNoPoints) {
+  const Lattice lattice = testing::centred_lattice(3, 1);
+  const SourceSamples samples = sample_source(lattice, TriangleBvh({}, {}), {}, {}, 0.5);
+  EXPECT_EQ(samples.distance, std::vector<float>(27, 0.5f));
+  EXPECT_EQ(samples.presence, std::vector<float>(27, 0.0f));
+  EXPECT_TRUE(sample(Lattice{}, testing::cube_soup(), 1).distance.empty());
+}
+
+}  // namespace
+}  // namespace skinforge
