@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <ctime>
 #include <set>
 #include <thread>
 
 #include "base/expect.h"
+#include "pipeline/schedule.h"
 #include "pipeline/stage_key.h"
 
 namespace skinforge {
@@ -87,71 +87,13 @@ struct Engine::Session {
   void finish(Node& node);
 
   std::vector<Node*> pending() const;
+  std::vector<Node*> needed_for(const std::vector<std::string>& artifacts) const;
+  Schedule schedule(const std::vector<Node*>& nodes) const;
+  void run(const std::vector<Node*>& nodes);
   const Node* failed_maker(const Node& node) const;
+  StagePlan plan(Node& node);
   void remember_keys();
 };
-
-namespace {
-// Runs nodes as soon as the pending nodes they read from are done, lowest index first.
-class Schedule {
- public:
-  Schedule(std::vector<Node*> nodes, const std::map<std::string, Slot>& slots) : nodes_(std::move(nodes)) {
-    std::map<const Node*, std::size_t> index;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) index[nodes_[i]] = i;
-    waits_for_.resize(nodes_.size());
-    feeds_.resize(nodes_.size());
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      std::set<std::size_t> makers;
-      for (const std::string& name : nodes_[i]->info.reads)
-        if (const auto maker = index.find(slots.at(name).maker); maker != index.end())
-          makers.insert(maker->second);
-      waits_for_[i] = makers.size();
-      for (const std::size_t maker : makers) feeds_[maker].push_back(i);
-      if (makers.empty()) ready_.insert(i);
-    }
-    expect_no_cycle();
-  }
-
-  // The next node; blocks while nothing is ready but something is running. Null when all are done.
-  Node* take() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !ready_.empty() || done_ == nodes_.size(); });
-    if (ready_.empty()) return nullptr;
-    const std::size_t i = *ready_.begin();
-    ready_.erase(ready_.begin());
-    running_[nodes_[i]] = i;
-    return nodes_[i];
-  }
-
-  void done(Node* node) {
-    const std::lock_guard lock(mutex_);
-    for (const std::size_t next : feeds_[running_.at(node)])
-      if (--waits_for_[next] == 0) ready_.insert(next);
-    ++done_;
-    changed_.notify_all();
-  }
-
- private:
-  void expect_no_cycle() const {
-    std::vector<std::size_t> waits = waits_for_;
-    std::vector<std::size_t> open(ready_.begin(), ready_.end());
-    for (std::size_t k = 0; k < open.size(); ++k)
-      for (const std::size_t next : feeds_[open[k]])
-        if (--waits[next] == 0) open.push_back(next);
-    if (open.size() != nodes_.size())
-      throw Error(ExitCode::Internal, "the stages read from each other in a circle");
-  }
-
-  std::vector<Node*> nodes_;
-  std::vector<std::size_t> waits_for_;
-  std::vector<std::vector<std::size_t>> feeds_;
-  std::set<std::size_t> ready_;
-  std::map<Node*, std::size_t> running_;
-  std::size_t done_ = 0;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-};
-}  // namespace
 
 void Engine::Session::add_source(const std::string& name, std::shared_ptr<Artifact> artifact) {
   if (!slots.emplace(name, Slot{std::move(artifact), nullptr}).second)
@@ -346,6 +288,47 @@ std::vector<Node*> Engine::Session::pending() const {
   return open;
 }
 
+// The pending nodes that make these artifacts, and those they need, in the order they were added.
+std::vector<Node*> Engine::Session::needed_for(const std::vector<std::string>& artifacts) const {
+  std::set<const Node*> needed;
+  std::vector<std::string> open = artifacts;
+  while (!open.empty()) {
+    const Node* maker = slot(open.back()).maker;
+    open.pop_back();
+    if (!maker || !needed.insert(maker).second) continue;
+    open.insert(open.end(), maker->info.reads.begin(), maker->info.reads.end());
+  }
+  std::vector<Node*> nodes_in_order = pending();
+  std::erase_if(nodes_in_order, [&](const Node* node) { return !needed.contains(node); });
+  return nodes_in_order;
+}
+
+Schedule Engine::Session::schedule(const std::vector<Node*>& tasks) const {
+  std::map<const Node*, std::size_t> index;
+  for (std::size_t i = 0; i < tasks.size(); ++i) index[tasks[i]] = i;
+  std::vector<std::set<std::size_t>> waits_for(tasks.size());
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    for (const std::string& name : tasks[i]->info.reads)
+      if (const auto maker = index.find(slot(name).maker); maker != index.end())
+        waits_for[i].insert(maker->second);
+  return Schedule(waits_for);
+}
+
+void Engine::Session::run(const std::vector<Node*>& tasks) {
+  Schedule order = schedule(tasks);
+  const auto work = [&] {
+    while (const auto task = order.take()) {
+      process_safely(*tasks[*task]);
+      order.done(*task);
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (std::size_t i = 1; i < std::min(options.jobs, tasks.size()); ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+  remember_keys();
+}
+
 // The first maker of an input that failed or was skipped.
 const Node* Engine::Session::failed_maker(const Node& node) const {
   const std::lock_guard lock(mutex);
@@ -356,6 +339,16 @@ const Node* Engine::Session::failed_maker(const Node& node) const {
       return maker;
   }
   return nullptr;
+}
+
+StagePlan Engine::Session::plan(Node& node) {
+  for (const std::string& name : node.info.reads)
+    if (!artifact(name)) return {node.info, PlanState::Waits, "waits for " + slot(name).maker->info.label()};
+  compute_key(node);
+  const auto manifest = cache.find(node.key.digest);
+  if (!manifest) return {node.info, PlanState::Run, reason(node)};
+  adopt(node, *manifest);
+  return {node.info, PlanState::Hit, {}};
 }
 
 // Keeps the keys of this session for the reasons of the next; writes only when something changed.
@@ -398,48 +391,28 @@ void Engine::add(std::vector<std::unique_ptr<Stage>> stages) {
 }
 
 void Engine::run() {
-  const std::vector<Node*> nodes = session_->pending();
-  Schedule schedule(nodes, session_->slots);
-  const auto work = [&] {
-    while (Node* node = schedule.take()) {
-      session_->process_safely(*node);
-      schedule.done(node);
-    }
-  };
-  std::vector<std::thread> helpers;
-  for (std::size_t i = 1; i < std::min(session_->options.jobs, nodes.size()); ++i) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
-  session_->remember_keys();
+  session_->run(session_->pending());
+}
+
+void Engine::run_for(const std::vector<std::string>& artifacts) {
+  session_->run(session_->needed_for(artifacts));
+}
+
+std::vector<StageInfo> Engine::stages() const {
+  std::vector<StageInfo> infos;
+  for (const auto& node : session_->nodes) infos.push_back(node->info);
+  return infos;
 }
 
 std::vector<StagePlan> Engine::plan() {
   const std::vector<Node*> nodes = session_->pending();
-  std::map<const Node*, StagePlan> plans;
-  const auto waits_for = [&](const Node& node) -> const Node* {
-    for (const std::string& name : node.info.reads)
-      if (!session_->artifact(name)) return session_->slot(name).maker;
-    return nullptr;
-  };
-  Schedule schedule(nodes, session_->slots);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    Node* node = schedule.take();
-    StagePlan plan{node->info, PlanState::Waits, {}};
-    if (const Node* maker = waits_for(*node)) {
-      plan.reason = "waits for " + maker->info.label();
-    } else {
-      session_->compute_key(*node);
-      const auto manifest = session_->cache.find(node->key.digest);
-      if (manifest) session_->adopt(*node, *manifest);
-      plan.state = manifest ? PlanState::Hit : PlanState::Run;
-      plan.reason = manifest ? "" : session_->reason(*node);
-    }
-    plans[node] = std::move(plan);
-    schedule.done(node);
+  std::vector<StagePlan> plans(nodes.size());
+  Schedule order = session_->schedule(nodes);
+  while (const auto task = order.take()) {
+    plans[*task] = session_->plan(*nodes[*task]);
+    order.done(*task);
   }
-  std::vector<StagePlan> ordered;
-  for (const Node* node : nodes) ordered.push_back(std::move(plans[node]));
-  return ordered;
+  return plans;
 }
 
 std::vector<StageResult> Engine::results() const {

@@ -81,6 +81,11 @@ class Engine {
   /// makes, a cycle): failures of stages are in `results`.
   void run();
 
+  /// Runs only what these artifacts need. Throws like `run`, and for an artifact that nobody makes.
+  void run_for(const std::vector<std::string>& artifacts);
+  /// All stages added so far, in that order.
+  std::vector<StageInfo> stages() const;
+
   /// What `run` would do, one per stage not run yet, in the order they were added. Runs nothing. Outputs of
   /// hits count as known afterwards, so that a further batch can be planned.
   std::vector<StagePlan> plan();

@@ -137,6 +137,22 @@ TEST(Engine, TakesASecondBatch) {
   EXPECT_THAT(engine.results(), SizeIs(2));
 }
 
+TEST(Engine, RunsOnlyWhatAnArtifactNeeds) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond diamond;
+  Engine engine(cache, {});
+  diamond.add_to(engine);
+  EXPECT_THAT(engine.stages(), SizeIs(4));
+  engine.run_for({"b"});
+  EXPECT_THAT(diamond.runs(), ElementsAre(1, 1, 0, 0));
+  EXPECT_THAT(engine.results(), SizeIs(2));
+  EXPECT_FALSE(engine.has("d"));
+  engine.run();
+  EXPECT_THAT(diamond.runs(), ElementsAre(1, 1, 1, 1));
+  EXPECT_THROW(engine.run_for({"nothing"}), Error);
+}
+
 TEST(Engine, AFailedStageTakesOnlyItsDependentsWithIt) {
   MemoryStore store;
   Cache cache(store);
