@@ -1,0 +1,21 @@
+#include <nlohmann/json.hpp>
+
+#include "base/version.h"
+#include "cli/build_id.h"
+#include "cli/commands.h"
+#include "recipe/schema.h"
+
+namespace skinforge {
+
+ExitCode schema_command(const CommandLine&, Console&) {
+  print_data(recipe_schema());
+  return ExitCode::Ok;
+}
+
+ExitCode version_command(const CommandLine& line, Console&) {
+  const nlohmann::json version = {{"version", kVersion}, {"build", build_id()}};
+  print_data(line.json ? version.dump(2) : std::string("skinforge ") + kVersion);
+  return ExitCode::Ok;
+}
+
+}  // namespace skinforge

@@ -1,0 +1,54 @@
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/session.h"
+
+namespace skinforge {
+using nlohmann::json;
+
+namespace {
+// The recipe, its files, its clips, and every joint: grafting the skeletons meets them all.
+ExitCode check_recipe(const CommandLine& line, const std::string& path, Console& console, json& result) {
+  Session session(line, path, console);
+  result["name"] = session.recipe().name;
+  if (session.import()) {
+    session.add_grafts();
+    session.run_for({ArtifactNames().graft()});
+  }
+  session.tell_trouble();
+  const auto failure = session.failure();
+  if (failure) result["error"] = failure->error;
+  result["stages"] = to_json(session.engine().results());
+  return exit_code(failure);
+}
+}  // namespace
+
+ExitCode check_command(const CommandLine& line, Console& console) {
+  json list = json::array();
+  ExitCode worst = ExitCode::Ok;
+  for (const std::string& path : line.recipes) {
+    json result = {{"recipe", path}};
+    ExitCode code = ExitCode::Ok;
+    try {
+      code = check_recipe(line, path, console, result);
+    } catch (const Error& error) {
+      code = error.code();
+      result["error"] = error.what();
+      console.error(printable(error.what()));
+    }
+    if (code == ExitCode::Ok) console.info(path + ": ok");
+    if (worst == ExitCode::Ok) worst = code;
+    result["exit_code"] = static_cast<int>(code);
+    list.push_back(std::move(result));
+  }
+  if (line.json) {
+    const json document = {{"recipes", std::move(list)}, {"exit_code", static_cast<int>(worst)}};
+    print_data(document.dump(2, ' ', false, json::error_handler_t::replace));
+  }
+  return worst;
+}
+
+}  // namespace skinforge

@@ -1,0 +1,252 @@
+#include "cli/command_line.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <map>
+#include <thread>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/version.h"
+
+namespace skinforge {
+
+namespace {
+constexpr std::size_t kMaxJobs = 1024;  // ours: far above any machine it runs on
+
+const std::map<std::string, ReportLevel> kReportLevels = {
+    {"none", ReportLevel::None}, {"json", ReportLevel::Json}, {"full", ReportLevel::Full}};
+
+std::string default_cache() {
+  const char* folder = std::getenv("SKINFORGE_CACHE");
+  return folder && *folder ? folder : ".skinforge/cache";
+}
+
+// The command line as CLI11 sees it. One object because CLI11 keeps pointers to what it fills.
+class Parser {
+ public:
+  Parser() {
+    app_.set_help_all_flag("--help-all", "Print the help of every command");
+    app_.set_version_flag("--version", std::string("skinforge ") + kVersion);
+    app_.require_subcommand(0, 1);
+    app_.footer(
+        "Exit status: 0 ok, 1 a stage failed, 2 usage or recipe error, 3 input missing or corrupt,\n"
+        "4 validation failed, 6 some recipes failed (--keep-going), 70 internal error,\n"
+        "130/143 ended by a signal. Environment: SKINFORGE_CACHE, NO_COLOR, CLICOLOR_FORCE, CI.");
+    line_.jobs = std::max(1U, std::thread::hardware_concurrency());
+    line_.cache = default_cache();
+    add_recipe_verbs();
+    add_stage_verbs();
+    add_cache_verbs();
+    add_other_verbs();
+  }
+
+  CommandLine parse(std::vector<std::string> arguments) {
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+    try {
+      app_.parse(arguments);
+    } catch (const CLI::CallForHelp&) {
+      return help(chosen(&app_)->help());
+    } catch (const CLI::CallForAllHelp&) {
+      return help(app_.help("", CLI::AppFormatMode::All));
+    } catch (const CLI::CallForVersion& version) {
+      return help(version.what());
+    } catch (const CLI::ParseError& error) {
+      expect_nothing_left(&app_);
+      throw Error(ExitCode::Usage, printable(error.what()) + hint());
+    }
+    expect_nothing_left(&app_);
+    const CLI::App* verb = chosen(&app_);
+    if (verb == &app_ || (verb->get_parent() == &app_ && !verbs_.contains(verb)))
+      throw Error(ExitCode::Usage, verb == &app_
+                                       ? "a command is missing" + hint()
+                                       : "\"" + verb->get_name() + "\" needs one of: " + names_below(verb));
+    line_.verb = verbs_.at(verb);
+    if (line_.verb == Verb::Help) line_.help = help_about(topic_);
+    line_.verbosity = quiet_ ? Verbosity::Quiet : verbose_ ? Verbosity::Verbose : Verbosity::Normal;
+    return line_;
+  }
+
+ private:
+  static std::string hint() { return "; skinforge help shows what there is"; }
+
+  CommandLine help(const std::string& text) {
+    line_.verb = Verb::Help;
+    line_.help = text;
+    return line_;
+  }
+
+  std::string help_about(const std::string& topic) const {
+    if (topic.empty()) return app_.help();
+    for (const CLI::App* verb : app_.get_subcommands(nullptr))
+      if (verb->get_name() == topic) return verb->help("skinforge");
+    throw Error(ExitCode::Usage, fmt::format("unknown command \"{}\"{}", printable(topic),
+                                             nearest_hint(topic, verb_names(&app_))));
+  }
+
+  static std::vector<std::string> verb_names(const CLI::App* app) {
+    std::vector<std::string> names;
+    for (const CLI::App* verb : app->get_subcommands(nullptr)) names.push_back(verb->get_name());
+    return names;
+  }
+
+  static std::string names_below(const CLI::App* app) {
+    std::string names;
+    for (const std::string& name : verb_names(app)) names += (names.empty() ? "" : ", ") + name;
+    return names;
+  }
+
+  static std::vector<std::string> option_names(const CLI::App* app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app->get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+  }
+
+  // The innermost verb that was given; the app itself when there is none.
+  static const CLI::App* chosen(const CLI::App* app) {
+    const auto given = app->get_subcommands();
+    return given.empty() ? app : chosen(given.front());
+  }
+
+  // Words that no verb took: mistyped verbs and options, with the nearest right ones.
+  static void expect_nothing_left(const CLI::App* app) {
+    const CLI::App* verb = chosen(app);
+    for (const std::string& word : app->remaining(true)) {
+      if (word.starts_with("-")) {
+        const std::string name = word.substr(0, word.find('='));
+        throw Error(ExitCode::Usage, fmt::format("unknown option {}{}", printable(name),
+                                                 nearest_hint(name, option_names(verb))));
+      }
+      const auto names = verb_names(verb);
+      if (!names.empty())
+        throw Error(ExitCode::Usage,
+                    fmt::format("unknown command \"{}\"{}", printable(word), nearest_hint(word, names)));
+      throw Error(ExitCode::Usage, fmt::format("unexpected argument \"{}\"", printable(word)));
+    }
+  }
+
+  CLI::App* add_verb(CLI::App* parent, const std::string& name, const std::string& what, Verb verb) {
+    CLI::App* app = parent->add_subcommand(name, what);
+    app->allow_extras();
+    app->add_flag("--json", line_.json, "Print the result as JSON on stdout");
+    app->add_flag("-q,--quiet", quiet_, "Say warnings and errors only");
+    app->add_flag("-v,--verbose", verbose_, "Say more");
+    verbs_[app] = verb;
+    return app;
+  }
+
+  CLI::App* add_group(const std::string& name, const std::string& what) {
+    CLI::App* app = app_.add_subcommand(name, what);
+    app->allow_extras();
+    app->require_subcommand(0, 1);
+    return app;
+  }
+
+  void add_cache_option(CLI::App* app) {
+    app->add_option("--cache", line_.cache, "Folder of the cache")
+        ->type_name("DIR")
+        ->default_str("$SKINFORGE_CACHE, else .skinforge/cache")
+        ->group("Cache and speed");
+  }
+
+  void add_work_options(CLI::App* app) {
+    add_cache_option(app);
+    app->add_option("-j,--jobs", line_.jobs, "Threads; the result is the same for any number")
+        ->check(CLI::Range(std::size_t{1}, kMaxJobs))
+        ->type_name("N")
+        ->default_str("one per core")
+        ->group("Cache and speed");
+  }
+
+  void add_report_option(CLI::App* app) {
+    app->add_option("--report", line_.report, "none, json, or full (with pictures)")
+        ->transform(CLI::CheckedTransformer(kReportLevels).description(""))
+        ->type_name("LEVEL")
+        ->default_str("full")
+        ->group("Output");
+  }
+
+  void add_recipes(CLI::App* app) {
+    app->add_option("RECIPE", line_.recipes, "Recipe files: .json, .jsonc, .yaml, .yml")
+        ->required()
+        ->type_name("");
+  }
+
+  void add_recipe_verbs() {
+    CLI::App* build = add_verb(&app_, "build", "Make the characters that recipes describe", Verb::Build);
+    add_recipes(build);
+    build->add_option("-o,--out", line_.out, "Output folder; of several recipes, each gets a folder in it")
+        ->type_name("DIR")
+        ->default_str("out/<name>")
+        ->group("Output");
+    add_report_option(build);
+    build->add_flag("-k,--keep-going", line_.keep_going,
+                    "Go on with the other recipes when one fails (status 6)");
+    add_work_options(build);
+
+    CLI::App* check = add_verb(&app_, "check", "Check recipes: keys, files, joints, clips", Verb::Check);
+    add_recipes(check);
+    add_work_options(check);
+
+    CLI::App* plan = add_verb(&app_, "plan", "Say which stages a build would run, and why", Verb::Plan);
+    add_recipes(plan);
+    add_report_option(plan);
+    add_work_options(plan);
+  }
+
+  void add_stage_verbs() {
+    CLI::App* stage = add_group("stage", "List the stages of a recipe, or run one of them");
+    CLI::App* run = add_verb(stage, "run", "Run one stage and what it needs, into the cache", Verb::StageRun);
+    add_recipes(run);
+    run->get_option("RECIPE")->expected(1);
+    run->add_option("STAGE", line_.stage, "Name as `stage list` prints it, e.g. \"import horse\"")
+        ->required()
+        ->type_name("");
+    add_report_option(run);
+    add_work_options(run);
+    CLI::App* list = add_verb(stage, "list", "Print the names of all stages", Verb::StageList);
+    add_recipes(list);
+    list->get_option("RECIPE")->expected(1);
+    add_report_option(list);
+    add_work_options(list);
+  }
+
+  void add_cache_verbs() {
+    CLI::App* cache = add_group("cache", "Look after the cache");
+    add_cache_option(add_verb(cache, "stats", "Count entries, bytes and saved seconds", Verb::CacheStats));
+    add_cache_option(
+        add_verb(cache, "verify", "Read everything, remove what is damaged (status 4)", Verb::CacheVerify));
+    add_cache_option(add_verb(cache, "clear", "Remove every entry", Verb::CacheClear));
+    add_cache_option(add_verb(cache, "path", "Print its folder", Verb::CachePath));
+  }
+
+  void add_other_verbs() {
+    CLI::App* inspect = add_verb(&app_, "inspect",
+                                 "Show what a model holds: joints, clips, weights, topology", Verb::Inspect);
+    inspect->add_option("FILE", line_.file, "Model: .glb, .gltf, .fbx, .dae, .obj, ...")
+        ->required()
+        ->type_name("");
+    add_verb(&app_, "schema", "Print the JSON Schema of recipes", Verb::Schema);
+    add_verb(&app_, "version", "Print the version", Verb::Version);
+    add_verb(&app_, "help", "Print this, or the help of one command", Verb::Help)
+        ->add_option("COMMAND", topic_, "A command")
+        ->type_name("");
+  }
+
+  CLI::App app_{"Grafts parts of rigged, animated characters into one.", "skinforge"};
+  CommandLine line_;
+  std::map<const CLI::App*, Verb> verbs_;
+  std::string topic_;
+  bool quiet_ = false;
+  bool verbose_ = false;
+};
+}  // namespace
+
+CommandLine parse_command_line(const std::vector<std::string>& arguments) {
+  return Parser().parse(arguments);
+}
+
+}  // namespace skinforge

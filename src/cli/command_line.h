@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/console.h"
+#include "stages/build.h"
+
+namespace skinforge {
+
+enum class Verb {
+  Build,
+  Check,
+  Plan,
+  Inspect,
+  StageRun,
+  StageList,
+  CacheStats,
+  CacheVerify,
+  CacheClear,
+  CachePath,
+  Schema,
+  Version,
+  Help
+};
+
+/// What the person asked for. Defaults are those that the help prints.
+struct CommandLine {
+  Verb verb = Verb::Help;
+  bool json = false;
+  Verbosity verbosity = Verbosity::Normal;
+  std::vector<std::string> recipes;  ///< build, check, plan: one or more; stage: one
+  std::string stage;                 ///< label, stage run
+  std::string file;                  ///< inspect
+  std::string out;                   ///< empty: out/<name>
+  std::string cache;                 ///< folder, settled: --cache, $SKINFORGE_CACHE or .skinforge/cache
+  std::size_t jobs = 1;
+  ReportLevel report = ReportLevel::Full;
+  bool keep_going = false;
+  std::string help;  ///< text for Verb::Help
+};
+
+/// Reads the arguments (without the program's name). Throws Error (Usage) for everything that is wrong, with
+/// the nearest verb or option.
+CommandLine parse_command_line(const std::vector<std::string>& arguments);
+
+}  // namespace skinforge

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "base/error.h"
+#include "cli/command_line.h"
+#include "cli/console.h"
+
+/// One function per verb. Each returns the exit status, prints data to stdout and talks through the console;
+/// what it throws ends the command (message and status in run.cpp).
+namespace skinforge {
+
+ExitCode build_command(const CommandLine& line, Console& console);
+ExitCode check_command(const CommandLine& line, Console& console);
+ExitCode plan_command(const CommandLine& line, Console& console);
+ExitCode inspect_command(const CommandLine& line, Console& console);
+ExitCode stage_run_command(const CommandLine& line, Console& console);
+ExitCode stage_list_command(const CommandLine& line, Console& console);
+ExitCode cache_stats_command(const CommandLine& line, Console& console);
+ExitCode cache_verify_command(const CommandLine& line, Console& console);
+ExitCode cache_clear_command(const CommandLine& line, Console& console);
+ExitCode cache_path_command(const CommandLine& line, Console& console);
+ExitCode schema_command(const CommandLine& line, Console& console);
+ExitCode version_command(const CommandLine& line, Console& console);
+
+/// "682 kB", "1.4 MB": decimal, as file managers count.
+std::string readable_size(std::uint64_t bytes);
+
+}  // namespace skinforge

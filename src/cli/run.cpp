@@ -1,0 +1,91 @@
+#include "cli/run.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/text.h"
+#include "cli/commands.h"
+#include "io/sandbox.h"
+
+namespace skinforge {
+
+namespace {
+// Nothing has to be tidied: whatever is being written is a temporary file, and the next build goes on.
+void end_on_signal(int number) {
+  static constexpr std::string_view kMessage = "\ninterrupted\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kMessage.data(), kMessage.size());
+  ::_exit(128 + number);
+}
+
+void install_signal_handlers() {
+  struct sigaction action {};
+  action.sa_handler = end_on_signal;
+  for (const int number : {SIGINT, SIGTERM}) ::sigaction(number, &action, nullptr);
+}
+
+using Command = ExitCode (*)(const CommandLine&, Console&);
+
+ExitCode help_command(const CommandLine& line, Console&) {
+  print_data(line.help);
+  return ExitCode::Ok;
+}
+
+Command command_of(Verb verb) {
+  static const std::map<Verb, Command> kCommands = {{Verb::Build, build_command},
+                                                    {Verb::Check, check_command},
+                                                    {Verb::Plan, plan_command},
+                                                    {Verb::Inspect, inspect_command},
+                                                    {Verb::StageRun, stage_run_command},
+                                                    {Verb::StageList, stage_list_command},
+                                                    {Verb::CacheStats, cache_stats_command},
+                                                    {Verb::CacheVerify, cache_verify_command},
+                                                    {Verb::CacheClear, cache_clear_command},
+                                                    {Verb::CachePath, cache_path_command},
+                                                    {Verb::Schema, schema_command},
+                                                    {Verb::Version, version_command},
+                                                    {Verb::Help, help_command}};
+  return kCommands.at(verb);
+}
+
+// The error where the person looks for it: stderr, and with --json stdout too.
+int end_with_error(ExitCode code, const std::string& message, bool wants_json) {
+  Console(Verbosity::Normal).error(printable(message));
+  const int status = static_cast<int>(code);
+  const nlohmann::json document = {{"error", message}, {"exit_code", status}};
+  try {
+    if (wants_json) print_data(document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } catch (const Error&) {
+    return status;  // stdout is gone; stderr has the message
+  }
+  return status;
+}
+
+int run_command(const std::vector<std::string>& arguments) {
+  bool wants_json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+  try {
+    const CommandLine line = parse_command_line(arguments);
+    wants_json = line.json;
+    Console console(line.verbosity);
+    return static_cast<int>(command_of(line.verb)(line, console));
+  } catch (const Error& error) {
+    return end_with_error(error.code(), error.what(), wants_json);
+  } catch (const std::bad_alloc&) {
+    return end_with_error(ExitCode::StageFailed, "not enough memory", wants_json);
+  } catch (const std::exception& error) {
+    return end_with_error(ExitCode::Internal, std::string("internal error: ") + error.what(), wants_json);
+  }
+}
+}  // namespace
+
+int run(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "--import-worker") return import_worker_main(argc, argv);
+  install_signal_handlers();
+  return run_command({argv + std::min(argc, 1), argv + argc});
+}
+
+}  // namespace skinforge

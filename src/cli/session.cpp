@@ -1,0 +1,131 @@
+#include "cli/session.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/parallel.h"
+#include "base/text.h"
+#include "cli/build_id.h"
+#include "stages/build.h"
+
+namespace skinforge {
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+// Names the recipe for "why did it run?", wherever the command is called from.
+std::string session_name(const std::string& recipe_path) {
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(recipe_path, error);
+  return error ? recipe_path : path.string();
+}
+
+const char* status_name(StageStatus status) {
+  switch (status) {
+    case StageStatus::Hit:
+      return "hit";
+    case StageStatus::Ran:
+      return "ran";
+    case StageStatus::Failed:
+      return "failed";
+    case StageStatus::Skipped:
+      return "skipped";
+  }
+  return "";
+}
+}  // namespace
+
+Session::Session(const CommandLine& line, const std::string& recipe_path, Console& console)
+    : line_(line),
+      console_(console),
+      recipe_(load_recipe(recipe_path)),
+      store_(line.cache),
+      cache_(store_),
+      progress_(console),
+      engine_(cache_, {.jobs = line.jobs,
+                       .build = build_id(),
+                       .session = session_name(recipe_path),
+                       .observer = &progress_}) {
+  set_thread_limit(line.jobs);
+}
+
+bool Session::import() {
+  add_imports(recipe_, engine_);
+  return run();
+}
+
+void Session::add_grafts() {
+  skinforge::add_grafts(recipe_, engine_, line_.report);
+}
+
+bool Session::knows_contents() {
+  return std::all_of(recipe_.inputs.begin(), recipe_.inputs.end(), [&](const RecipeInput& input) {
+    return engine_.has(ArtifactNames().contents(input.name));
+  });
+}
+
+bool Session::run() {
+  progress_.set_total(engine_.stages().size());
+  engine_.run();
+  progress_.end();
+  return engine_.is_ok();
+}
+
+bool Session::run_for(const std::vector<std::string>& artifacts) {
+  progress_.set_total(engine_.stages().size());
+  engine_.run_for(artifacts);
+  progress_.end();
+  return engine_.is_ok();
+}
+
+std::optional<StageResult> Session::failure() const {
+  for (const StageResult& result : engine_.results())
+    if (result.status == StageStatus::Failed) return result;
+  return std::nullopt;
+}
+
+void Session::tell_trouble() {
+  for (const Issue& issue : cache_.take_warnings()) console_.issue(issue);
+  std::size_t skipped = 0;
+  for (const StageResult& result : engine_.results()) {
+    if (result.status == StageStatus::Failed)
+      console_.error(printable(fmt::format("{} (stage {})", result.error, result.info.label())));
+    if (result.status == StageStatus::Skipped) ++skipped;
+  }
+  if (skipped > 0) console_.info(fmt::format("{} stages that depend on it were skipped", skipped));
+}
+
+ExitCode exit_code(const std::optional<StageResult>& failure) {
+  return failure ? failure->code : ExitCode::Ok;
+}
+
+json to_json(const std::vector<Issue>& issues) {
+  json list = json::array();
+  for (const Issue& issue : issues)
+    list.push_back({{"code", issue.code},
+                    {"severity", issue.severity == Severity::Warning ? "warning" : "note"},
+                    {"place", issue.place},
+                    {"message", issue.message}});
+  return list;
+}
+
+json to_json(const std::vector<StageResult>& results) {
+  json list = json::array();
+  for (const StageResult& result : results) {
+    json stage = {{"stage", result.info.label()},
+                  {"status", status_name(result.status)},
+                  {"key", result.key.hex()},
+                  {"wall_seconds", result.cost.wall_seconds},
+                  {"cpu_seconds", result.cost.cpu_seconds},
+                  {"peak_bytes", result.cost.peak_bytes},
+                  {"issues", to_json(result.issues)}};
+    if (!result.reason.empty()) stage["reason"] = result.reason;
+    if (!result.error.empty()) stage["error"] = result.error;
+    list.push_back(std::move(stage));
+  }
+  return list;
+}
+
+}  // namespace skinforge

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/command_line.h"
+#include "cli/console.h"
+#include "cli/progress.h"
+#include "pipeline/engine.h"
+#include "recipe/recipe.h"
+
+namespace skinforge {
+
+/// One recipe on its way through an engine, with cache and progress as the command line wants them.
+class Session {
+ public:
+  /// Loads the recipe. Throws Error like `load_recipe`.
+  Session(const CommandLine& line, const std::string& recipe_path, Console& console);
+
+  const Recipe& recipe() const { return recipe_; }
+  Engine& engine() { return engine_; }
+
+  /// Adds the imports and runs them. False when one failed.
+  bool import();
+  /// Adds everything behind the imports, which must have run well or be hits.
+  void add_grafts();
+  /// Whether all input contents are known, so that the grafts can be added.
+  bool knows_contents();
+  /// Runs what was added, or what these artifacts need. False when something failed.
+  bool run();
+  bool run_for(const std::vector<std::string>& artifacts);
+
+  /// The first stage that failed; none when all is well.
+  std::optional<StageResult> failure() const;
+  /// Says the errors of failed stages and the cache's warnings.
+  void tell_trouble();
+
+ private:
+  const CommandLine& line_;
+  Console& console_;
+  Recipe recipe_;
+  DiskStore store_;
+  Cache cache_;
+  Progress progress_;
+  Engine engine_;
+};
+
+/// Exit status of a session whose first failure is `failure`.
+ExitCode exit_code(const std::optional<StageResult>& failure);
+
+/// Stages, issues and errors of a session for --json.
+nlohmann::json to_json(const std::vector<StageResult>& results);
+nlohmann::json to_json(const std::vector<Issue>& issues);
+
+}  // namespace skinforge
