@@ -6,7 +6,7 @@ import numpy as np
 from .cage import HalfCage, ball, direction
 from .character import Character
 from .mesh import merged
-from .paint import band, noise, ramp, spot
+from .paint import band, dots, noise, ramp, spot
 from .rig import Clip, Skeleton, keyed, plant, stride, wave
 
 HALF = 6  # segments of a half ring; point 0 is on the back, point 6 under the belly
@@ -249,8 +249,7 @@ def paint_horse(t):
 
 
 def _paint_dapples(t, y, z, coat):
-    n = noise(t.place, 0.075, 15)
-    t.blend("#f1cf97", coat * 0.55 * ramp(0.58, 0.72, n) * ramp(1.0, 1.15, y) * (ramp(-0.25, -0.5, z) + 0.6 * ramp(0.1, 0.3, z) * ramp(0.75, 0.55, z)))
+    t.blend("#f4d5a0", coat * 0.55 * dots(t.place, 0.088, 0.40, 15) * ramp(1.0, 1.15, y) * (ramp(-0.25, -0.5, z) + 0.6 * ramp(0.1, 0.3, z) * ramp(0.75, 0.55, z)))
 
 
 def _paint_head(t, x, y, z, side):

@@ -114,6 +114,16 @@ def noise(place, cell, seed):
     return total
 
 
+def dots(place, cell, radius, seed):
+    """Round dots, one in most cells of `cell` metres, `radius` as a part of the cell; 1 inside, soft rim."""
+    base = np.floor(place / cell)
+    inside = place / cell - base
+    cells = base.astype(np.int64)
+    middle = np.stack([0.35 + 0.30 * _hash(cells, seed + k) for k in range(3)], axis=-1)
+    size = radius * (0.35 + 0.65 * _hash(cells, seed + 3))
+    return ramp(1.15, 0.80, np.linalg.norm(inside - middle, axis=1) / size) * (_hash(cells, seed + 4) > 0.3)
+
+
 def _hash(cells, seed):
     mask = np.uint64(0xFFFFFFFFFFFFFFFF)
     c = cells.astype(np.uint64)
