@@ -5,8 +5,8 @@
 
 namespace skinforge {
 
-/// Value of a track at `time` (glTF 2.0 semantics: LINEAR lerp or shortest-arc slerp, STEP, CUBICSPLINE; clamped at
-/// both ends). The track must not be empty.
+/// Value of a track at `time` (glTF 2.0 semantics: LINEAR lerp or shortest-arc slerp, STEP, CUBICSPLINE;
+/// clamped at both ends). The track must not be empty.
 Vec3 sample(const Vec3Track& track, double time);
 Quat sample(const QuatTrack& track, double time);
 std::vector<double> sample(const WeightsTrack& track, double time);
