@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "skinning/weight_rows.h"
 #include "skinning/tube_scene.h"
+#include "skinning/weight_rows.h"
 
 namespace skinforge {
 namespace {
