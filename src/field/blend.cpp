@@ -6,7 +6,8 @@
 namespace skinforge {
 namespace {
 constexpr double kAbsent = 0.001, kPresent = 0.999;  // the reference's branch limits, here the ends of a ramp
-}
+constexpr double kBothPresent = 0.8;  // ours: from here on two present parts begin to count as a union
+}  // namespace
 
 double presence_weight(double presence) {
   const double t = std::clamp((presence - kAbsent) / (kPresent - kAbsent), 0.0, 1.0);
@@ -15,8 +16,12 @@ double presence_weight(double presence) {
 
 double blend_replace(double distance0, double presence0, double distance1, double presence1) {
   const double w0 = presence_weight(presence0), w1 = presence_weight(presence1);
-  if (w0 + w1 == 0) return (distance0 + distance1) / 2;
-  return (w0 * distance0 + w1 * distance1) / (w0 + w1);  // Eq. 1, replacement
+  // w / (1 - w) of both, over a common denominator: a source that is wholly present decides alone.
+  const double share0 = w0 * (1 - w1), share1 = w1 * (1 - w0), sum = share0 + share1;
+  const double nearer = std::min(distance0, distance1);
+  const double mean = sum > 0 ? (share0 * distance0 + share1 * distance1) / sum : (distance0 + distance1) / 2;
+  const double both = presence_weight((std::min(presence0, presence1) - kBothPresent) / (1 - kBothPresent));
+  return (1 - both) * mean + both * nearer;  // Eq. 1, replacement, where at most one source is wholly present
 }
 
 double blend_union(double distance0, double distance1, double fillet) {

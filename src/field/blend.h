@@ -6,9 +6,14 @@ namespace skinforge {
 /// (junction.md d.2), so that the blended field has no step where a source begins to be fully present.
 double presence_weight(double presence);
 
-/// delta_R of Eq. 1 for replacements, metres: the mean of the two distances weighted by `presence_weight`.
-/// Where both weights vanish the plain mean. A source that is absent beyond its band has presence 0 and
-/// leaves the other one alone.
+/// delta_R of Eq. 1 for replacements, metres: the mean of the two distances weighted by presence, with three
+/// cases that the formula leaves open, each reached without a step (w = `presence_weight`):
+///  - weights are w / (1 - w), so that a source that is wholly present decides alone where the other is not:
+///  its preserved
+///    surface is met exactly;
+///  - where both become wholly present, the nearer surface (a union): two preserved parts must not pull at
+///  each other from afar;
+///  - where neither is present, the plain mean.
 double blend_replace(double distance0, double presence0, double distance1, double presence1);
 
 /// delta_R of Eq. 1 for additions, metres: the lesser distance, with a cubic smooth minimum of radius

@@ -13,8 +13,7 @@ constexpr double kJunctionQuadScore =
 
 class Assembler {
  public:
-  Assembler(std::span<const PreservedSource> sources, std::span<const std::int32_t> first_material)
-      : sources_(sources), first_material_(first_material) {
+  explicit Assembler(std::span<const PreservedSource> sources) : sources_(sources) {
     result_.mesh.face_begin = {0};
     std::size_t uv_sets = 0;
     bool has_colors = false;
@@ -37,9 +36,7 @@ class Assembler {
       const std::size_t first = mesh.first_corner(FaceId(f));
       for (std::size_t c = first; c < first + mesh.face(FaceId(f)).size(); ++c)
         add_corner(mesh, c, preserved_vertex(id, mesh.corners[c]));
-      const MaterialId material = mesh.face_material[f];
-      close_face(material.is_valid() ? MaterialId(material.value + first_material_[id.index()]) : material,
-                 PartId(mesh.face_part[f].value + first_part), {id, FaceId(f), -1});
+      close_face(mesh.face_material[f], PartId(mesh.face_part[f].value + first_part), {id, FaceId(f), -1});
     }
   }
 
@@ -126,7 +123,6 @@ class Assembler {
   }
 
   std::span<const PreservedSource> sources_;
-  std::span<const std::int32_t> first_material_;
   JoinedSurface result_;
   std::vector<std::vector<VertexId>> vertex_names_;
   bool has_colors_ = false;
@@ -185,9 +181,9 @@ void shade_junction(JoinedSurface& result, std::int32_t site) {
 
 }  // namespace
 
-JoinedSurface assemble_surface(std::span<const PreservedSource> sources, std::span<const Junction> junctions,
-                               std::span<const std::int32_t> first_material) {
-  Assembler assembler(sources, first_material);
+JoinedSurface assemble_surface(std::span<const PreservedSource> sources,
+                               std::span<const Junction> junctions) {
+  Assembler assembler(sources);
   for (std::size_t s = 0; s < sources.size(); ++s) assembler.add_source(SourceId(s));
   for (std::size_t j = 0; j < junctions.size(); ++j)
     assembler.add_junction(junctions[j], static_cast<std::int32_t>(j));

@@ -52,7 +52,6 @@ struct JoinedSurface {
 /// position. Preserved corners keep their attributes; face materials are offset by `first_material` per
 /// source. Junction triangles are paired to quads where a quad is well shaped; their normals are smooth and
 /// take the preserved normals at the border, or flat where the neighbours are flat shaded.
-JoinedSurface assemble_surface(std::span<const PreservedSource> sources, std::span<const Junction> junctions,
-                               std::span<const std::int32_t> first_material);
+JoinedSurface assemble_surface(std::span<const PreservedSource> sources, std::span<const Junction> junctions);
 
 }  // namespace skinforge

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/edges.h"
+
 namespace skinforge {
 namespace {
 
@@ -24,18 +26,47 @@ void cap_openings(FusionSolid& solid) {
 
 }  // namespace
 
-FusionSolid fusion_solid(const PolygonMesh& mesh, const SourceSelection& selection,
-                         const std::vector<double>& presence, bool is_host, SolidExtent extent) {
+SiteParticipant cut_participant(SourceId source, const SourceSelection& selection, std::size_t site,
+                                bool is_host) {
+  SiteParticipant participant{source, is_host, std::vector<double>(selection.presence.size(), 1), {}};
+  for (std::size_t c = 0; c < selection.cut_sites.size(); ++c)
+    if (selection.cut_sites[c] == site) participant.presence = selection.site_presence[c];
+  for (const ComponentRole role : selection.face_role)
+    participant.fusing.push_back(role == ComponentRole::Blended ? 1 : 0);
+  return participant;
+}
+
+SiteParticipant host_participant(SourceId source, const PolygonMesh& mesh, const SourceSelection& selection,
+                                 const Vec3& where) {
+  SiteParticipant participant{source, true, std::vector<double>(mesh.vertex_count(), 1), {}};
+  const Triangulation triangulation = triangulate(mesh);
+  std::vector<Triangle> triangles;
+  std::vector<FaceId> face;
+  for (std::size_t t = 0; t < triangulation.triangles.size(); ++t) {
+    if (selection.face_role[triangulation.face[t].index()] == ComponentRole::DroppedWhole) continue;
+    const auto& corners = triangulation.triangles[t];
+    triangles.push_back({corners[0].value, corners[1].value, corners[2].value});
+    face.push_back(triangulation.face[t]);
+  }
+  const ClosestPoint nearest = TriangleBvh(mesh.positions, triangles).closest(where);
+  participant.fusing.assign(mesh.face_count(), 0);
+  if (nearest.triangle < 0) return participant;
+  const Components components = connected_components(mesh);
+  const std::int32_t chosen = components.of_face[face[nearest.triangle].index()];
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) participant.fusing[f] = components.of_face[f] == chosen;
+  return participant;
+}
+
+FusionSolid fusion_solid(const PolygonMesh& mesh, const SiteParticipant& participant, SolidExtent extent) {
   FusionSolid solid;
-  solid.is_host = is_host;
+  solid.is_host = participant.is_host;
   std::vector<std::int32_t> renamed(mesh.vertex_count(), -1);
   const Triangulation all = triangulate(mesh);
   for (std::size_t t = 0; t < all.triangles.size(); ++t) {
-    if (selection.face_role[all.face[t].index()] != ComponentRole::Blended && !selection.cut_sites.empty())
-      continue;
+    if (!participant.fusing[all.face[t].index()]) continue;
     const auto& corners = all.triangles[t];
-    const bool is_present =
-        std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return presence[v.index()] > 0; });
+    const bool is_present = std::any_of(corners.begin(), corners.end(),
+                                        [&](VertexId v) { return participant.presence[v.index()] > 0; });
     if (extent == SolidExtent::Trimmed && !is_present) continue;
     Triangle triangle{};
     for (int k = 0; k < 3; ++k) {
@@ -43,7 +74,7 @@ FusionSolid fusion_solid(const PolygonMesh& mesh, const SourceSelection& selecti
       if (name < 0) {
         name = static_cast<std::int32_t>(solid.positions.size());
         solid.positions.push_back(mesh.positions[corners[k].index()]);
-        solid.presence.push_back(presence[corners[k].index()]);
+        solid.presence.push_back(participant.presence[corners[k].index()]);
       }
       triangle[k] = name;
     }

@@ -76,14 +76,14 @@ std::vector<Vec3> inward_neighbours(const PolygonMesh& mesh, const SourceSelecti
 
 }  // namespace
 
-void discard_moved_faces(std::span<PreservedSource> sources, std::span<const SourceId> participants,
+void discard_moved_faces(std::span<PreservedSource> sources, std::span<const SiteParticipant> participants,
                          const std::vector<FusionSolid>& solids, const SiteField& field, std::size_t site,
                          const PreserveOptions& options) {
   if (field.is_empty()) return;
   const Eigen::AlignedBox3d box = box_of(field.distance.lattice);
   const double tolerance = options.moved_voxels * field.voxel();
-  for (const SourceId id : participants) {
-    PreservedSource& source = sources[id.index()];
+  for (const SiteParticipant& participant : participants) {
+    PreservedSource& source = sources[participant.source.index()];
     const PolygonMesh& mesh = *source.mesh;
     std::vector<signed char> moved(mesh.vertex_count(), -1);  // not asked yet
     const auto is_moved = [&](VertexId v) {
@@ -93,7 +93,7 @@ void discard_moved_faces(std::span<PreservedSource> sources, std::span<const Sou
       return answer != 0;
     };
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-      if (!source.selection.kept[f] || source.selection.face_role[f] == ComponentRole::KeptWhole) continue;
+      if (!source.selection.kept[f] || !participant.fusing[f]) continue;
       const auto face = mesh.face(FaceId(f));
       if (std::none_of(face.begin(), face.end(), is_moved)) continue;
       source.selection.kept[f] = 0;

@@ -29,9 +29,9 @@ struct PreserveOptions {
   }
 };
 
-/// Discards kept faces of the sources `solids[i]` <-> `sources[participants[i]]` whose vertices do not lie on
-/// the blended surface of the site: inside the other part, or in a fillet.
-void discard_moved_faces(std::span<PreservedSource> sources, std::span<const SourceId> participants,
+/// Discards kept fused faces of the participants whose vertices do not lie on the blended surface of the
+/// site: inside the other part, or in a fillet. `solids`: one per participant.
+void discard_moved_faces(std::span<PreservedSource> sources, std::span<const SiteParticipant> participants,
                          const std::vector<FusionSolid>& solids, const SiteField& field, std::size_t site,
                          const PreserveOptions& options);
 

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/import.h"
+#include "model/character.h"
+#include "skeleton/graft.h"
+#include "surface/assemble.h"
+
+/// Names and types of what passes between stages. Types that belong to one layer are used as they are; these
+/// are the ones that only the pipeline needs.
+namespace skinforge {
+
+/// Names of artifacts. `prefix` keeps a recipe used as an input apart from the one that uses it.
+struct ArtifactNames {
+  std::string prefix;
+
+  std::string file(const std::string& input, std::size_t i) const {
+    return prefix + "file:" + input + ":" + std::to_string(i);
+  }
+  std::string imported(const std::string& input) const { return prefix + "imported:" + input; }
+  std::string character(const std::string& input) const { return prefix + "character:" + input; }
+  std::string contents(const std::string& input) const { return prefix + "contents:" + input; }
+  std::string placement() const { return prefix + "placement"; }
+  std::string graft() const { return prefix + "graft"; }
+  std::string joint_maps() const { return prefix + "joint_maps"; }
+  std::string placed() const { return prefix + "placed"; }
+  std::string selection() const { return prefix + "selection"; }
+  std::string field(std::size_t site) const { return prefix + "field:" + std::to_string(site); }
+  std::string vdb(std::size_t site) const { return prefix + "vdb:" + std::to_string(site); }
+  std::string surface() const { return prefix + "surface"; }
+  std::string bound() const { return prefix + "bound"; }
+  std::string shares() const { return prefix + "shares"; }
+  std::string motion(std::size_t source) const { return prefix + "motion:" + std::to_string(source); }
+  std::string clip(const std::string& name) const { return prefix + "clip:" + name; }
+  std::string textured() const { return prefix + "textured"; }
+  std::string result() const { return prefix + "result"; }
+  std::string glb() const { return prefix + "glb"; }
+  std::string obj() const { return prefix + "obj"; }
+  std::string validation() const { return prefix + "validation"; }
+  std::string picture(const std::string& name) const { return prefix + "picture:" + name; }
+  std::string report() const { return prefix + "report"; }
+};
+
+/// What the planning of later stages needs to know of an input, without decoding the character.
+struct InputContents {
+  std::vector<std::string> joints;
+  std::vector<std::string> clips;
+
+  template <class Archive>
+  friend void fields(Archive& a, InputContents& c) {
+    a(c.joints, c.clips);
+  }
+};
+
+/// The operations with their placements worked out (Sec. 4.1).
+struct PlacedOperations {
+  std::vector<GraftOperation> operations;
+  /// Per operation, per joint of its input: what the joint is moved by on top of the placement, metres; empty
+  /// for none. Only an input whose joints are matched in several places has any: the translations spread
+  /// between them.
+  std::vector<std::vector<Vec3>> joint_shifts;
+
+  template <class Archive>
+  friend void fields(Archive& a, PlacedOperations& p) {
+    a(p.operations, p.joint_shifts);
+  }
+};
+
+/// The joined surface and the junctions in it, one per operation.
+struct SurfaceResult {
+  JoinedSurface joined;
+  std::vector<Junction> junctions;
+  std::vector<FaceSet> kept;       ///< per source: the faces that stayed
+  std::vector<std::int32_t> arcs;  ///< per operation: borders left open because they end on an open hem
+
+  template <class Archive>
+  friend void fields(Archive& a, SurfaceResult& s) {
+    a(s.joined, s.junctions, s.kept, s.arcs);
+  }
+};
+
+}  // namespace skinforge

@@ -1,0 +1,163 @@
+#include "stages/build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/text.h"
+#include "io/import.h"
+#include "stages/inputs.h"
+#include "stages/pictures.h"
+
+namespace skinforge {
+namespace {
+
+ArtifactNames nested_names(const ArtifactNames& names, const std::string& input) {
+  return {names.prefix + input + "/"};
+}
+
+// Puts the files behind one path into the engine and returns their names, the first file first.
+std::vector<std::string> add_files(Engine& engine, const ArtifactNames& names, const std::string& input,
+                                   const RecipePath& path, std::size_t& next) {
+  std::vector<std::string> file_names;
+  for (InputFile& file : read_input_files(path.resolved.string())) {
+    file_names.push_back(file_names.empty() ? path.resolved.filename().string()
+                                            : std::filesystem::path(file.path).filename().string());
+    auto bytes = std::make_shared<const Bytes>(std::move(file.bytes));
+    engine.put_source(names.file(input, next++), file.digest, bytes->size(), [bytes] { return *bytes; });
+  }
+  return file_names;
+}
+
+void add_file_import(const Recipe& recipe, std::size_t i, Engine& engine, const ArtifactNames& names) {
+  const RecipeInput& input = recipe.inputs[i];
+  ImportParameters parameters{input.name, {}};
+  std::size_t next = 0;
+  with_context(recipe.place("/inputs/" + input.name), [&] {
+    parameters.file_names.push_back(add_files(engine, names, input.name, input.file, next));
+    for (const RecipePath& clips : input.clips)
+      parameters.file_names.push_back(add_files(engine, names, input.name, clips, next));
+  });
+  engine.add(make_import_stage(names, std::move(parameters)));
+}
+
+// A recipe used as an input is built whole, so that its clips are known.
+void add_recipe_import(const RecipeInput& input, Engine& engine, const ArtifactNames& names) {
+  const ArtifactNames nested = nested_names(names, input.name);
+  add_imports(*input.recipe, engine, nested);
+  engine.run();
+  if (!engine.is_ok()) return;
+  add_grafts(*input.recipe, engine, ReportLevel::None, nested);
+  engine.add(make_adopt_stage(names, nested, input.name));
+}
+
+bool is_wanted(const AnimationOptions& options, const std::string& clip) {
+  return options.all_clips ||
+         std::find(options.clips.begin(), options.clips.end(), clip) != options.clips.end();
+}
+
+// A clip keeps its name; where two inputs bring the same, the later one becomes <input>_<name>. The base
+// comes first.
+std::vector<ClipRequest> clip_requests(const Recipe& recipe, Engine& engine, const ArtifactNames& names) {
+  std::vector<std::size_t> order{recipe.input_index(recipe.base)};
+  for (std::size_t i = 0; i < recipe.inputs.size(); ++i)
+    if (i != order.front()) order.push_back(i);
+  std::vector<ClipRequest> requests;
+  std::vector<std::string> all;
+  std::set<std::string> taken;
+  for (const std::size_t i : order) {
+    const std::string& input = recipe.inputs[i].name;
+    const std::vector<std::string>& clips = engine.get<InputContents>(names.contents(input)).clips;
+    for (std::size_t c = 0; c < clips.size(); ++c) {
+      std::string name = clips[c];
+      if (taken.contains(name)) name = fmt::format("{}_{}", input, clips[c]);
+      for (int n = 2; !taken.insert(name).second; ++n) name = fmt::format("{}_{}_{}", input, clips[c], n);
+      all.push_back(name);
+      if (is_wanted(recipe.animation, clips[c]) || is_wanted(recipe.animation, name))
+        requests.push_back({i, c, name});
+    }
+  }
+  for (const std::string& wanted : recipe.animation.clips) {
+    const bool is_known = std::any_of(requests.begin(), requests.end(), [&](const ClipRequest& r) {
+      return r.name == wanted ||
+             engine.get<InputContents>(names.contents(recipe.inputs[r.input].name)).clips[r.clip] == wanted;
+    });
+    if (!is_known)
+      throw Error(ExitCode::Usage,
+                  fmt::format("{}: no clip \"{}\" in any input{}", recipe.place("/animation/clips"),
+                              printable(wanted), nearest_hint(wanted, all)));
+  }
+  return requests;
+}
+
+// Input of each source, as graft_skeletons numbers them: the base, then one for each operation that brings a
+// part.
+std::vector<std::string> inputs_of_sources(const Recipe& recipe) {
+  std::vector<std::string> inputs{recipe.base};
+  for (const RecipeOperation& operation : recipe.operations)
+    if (!operation.from.empty()) inputs.push_back(operation.from);
+  return inputs;
+}
+
+std::string file_name_of_picture(const std::string& name) {
+  return "pictures/" + name + ".png";
+}
+
+}  // namespace
+
+void add_imports(const Recipe& recipe, Engine& engine, const ArtifactNames& names) {
+  for (std::size_t i = 0; i < recipe.inputs.size(); ++i) {
+    const RecipeInput& input = recipe.inputs[i];
+    if (input.recipe)
+      add_recipe_import(input, engine, names);
+    else
+      add_file_import(recipe, i, engine, names);
+    engine.add(make_pose_stage(names, input));
+  }
+}
+
+void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const ArtifactNames& names) {
+  const std::vector<ClipRequest> clips = clip_requests(recipe, engine, names);
+  const std::vector<std::string> sources = inputs_of_sources(recipe);
+  engine.add(make_place_stage(names, recipe));
+  engine.add(make_graft_skeleton_stage(names, recipe));
+  engine.add(make_map_joints_stage(names, recipe));
+  engine.add(make_select_stage(names, recipe));
+  for (std::size_t k = 0; k < recipe.operations.size(); ++k) engine.add(make_field_stage(names, recipe, k));
+  engine.add(make_junction_stage(names, recipe));
+  engine.add(make_bind_stage(names, recipe));
+  engine.add(make_texture_stage(names, recipe));
+  for (std::size_t s = 0; s < sources.size(); ++s)
+    engine.add(make_motion_stage(names, recipe, s, sources[s]));
+  for (const ClipRequest& clip : clips)
+    engine.add(make_complete_clip_stage(names, recipe, sources.size(), clip));
+  engine.add(make_export_stage(names, recipe, clips));
+  engine.add(make_validate_stage(names));
+  if (level == ReportLevel::None) return;
+  engine.add(make_report_stage(names, recipe, clips));
+  if (level == ReportLevel::Full) engine.add(make_pictures_stage(names, recipe, clips));
+}
+
+std::vector<OutputFile> outputs(const Recipe& recipe, Engine& engine, ReportLevel level,
+                                const ArtifactNames& names) {
+  std::vector<OutputFile> files;
+  if (!recipe.output.glb.empty()) files.push_back({recipe.output.glb, names.glb()});
+  if (!recipe.output.obj.empty()) files.push_back({recipe.output.obj, names.obj()});
+  for (std::size_t k = 0; k < recipe.operations.size() && !recipe.output.vdb.empty(); ++k) {
+    const std::filesystem::path vdb(recipe.output.vdb);
+    const std::string name = k == 0 ? vdb.string()
+                                    : (vdb.parent_path() / fmt::format("{}_{}{}", vdb.stem().string(), k + 1,
+                                                                       vdb.extension().string()))
+                                          .string();
+    if (engine.has(names.vdb(k)) && engine.size(names.vdb(k)) > 0) files.push_back({name, names.vdb(k)});
+  }
+  if (level == ReportLevel::None) return files;
+  files.push_back({"report.json", names.report()});
+  if (level == ReportLevel::Full)
+    for (const std::string& picture : picture_names(recipe, clip_requests(recipe, engine, names)))
+      files.push_back({file_name_of_picture(picture), names.picture(picture)});
+  return files;
+}
+
+}  // namespace skinforge

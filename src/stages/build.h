@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/engine.h"
+#include "pipeline/publish.h"
+#include "recipe/recipe.h"
+#include "stages/stages.h"
+
+namespace skinforge {
+
+/// How much a build says about its result besides the character.
+enum class ReportLevel : std::uint8_t { None, Json, Full };  ///< Full: with pictures
+
+/// The stages of one recipe, in two batches because the clips are known only when the inputs are.
+///   add_imports(recipe, engine); engine.run(); add_grafts(recipe, engine, level); engine.run();
+///   publish(engine, outputs(...), folder)
+/// Recipes used as inputs bring their own stages; `add_imports` runs those that must have finished before.
+
+/// Input files become sources of the engine (read once, hashed), and one import stage each is added. Throws
+/// Error (BadInput) for a missing file, with the place in the recipe that names it.
+void add_imports(const Recipe& recipe, Engine& engine, const ArtifactNames& names = {});
+
+/// Everything behind the imports, from what they found. Throws Error (Usage) for an unknown clip.
+void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const ArtifactNames& names = {});
+
+/// The files a build writes, relative to the output folder.
+std::vector<OutputFile> outputs(const Recipe& recipe, Engine& engine, ReportLevel level,
+                                const ArtifactNames& names = {});
+
+}  // namespace skinforge

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "base/issue.h"
+#include "io/export.h"
+#include "model/character.h"
+
+namespace skinforge {
+
+/// The images of a character that its materials show as base colour or emission, decoded, by ImageId; the
+/// others are empty rasters. One that cannot be decoded is a warning and counts as white.
+std::vector<Raster> decoded_images(const Character& character, const std::string& place, IssueSink& issues);
+
+}  // namespace skinforge

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include "base/version.h"
+#include "stages/stages.h"
+
+namespace skinforge {
+namespace {
+
+// Morph weights name parts of the driving input; the result has that part once for each use of the input.
+std::vector<MorphTracks> morphs_on_result(const std::vector<MorphTracks>& morphs, std::size_t input,
+                                          const Graft& graft, const JoinedSurface& joined) {
+  std::vector<MorphTracks> carried;
+  for (std::size_t s = 0; s < graft.sources.size(); ++s) {
+    if (graft.sources[s].input != input) continue;
+    for (MorphTracks tracks : morphs) {
+      tracks.part = PartId(tracks.part.value + joined.first_part[s].value);
+      carried.push_back(std::move(tracks));
+    }
+  }
+  return carried;
+}
+
+/// The finished character and its files.
+class Export final : public Stage {
+ public:
+  Export(ArtifactNames names, const Recipe& recipe, std::span<const ClipRequest> clips)
+      : names_(std::move(names)), clips_(clips.begin(), clips.end()) {
+    options_.max_influences = static_cast<std::size_t>(recipe.output.influences);
+    wants_obj_ = !recipe.output.obj.empty();
+  }
+
+  StageInfo info() const override {
+    StageInfo info{.name = "export",
+                   .version = 1,
+                   .reads = {names_.textured(), names_.graft(), names_.surface()},
+                   .writes = {names_.result(), names_.glb(), names_.obj()}};
+    for (const ClipRequest& clip : clips_) info.reads.push_back(names_.clip(clip.name));
+    return info;
+  }
+  void add_to_key(Hasher& key) const override {
+    key.add_value("influences", options_.max_influences);
+    key.add_value("obj", wants_obj_);
+  }
+
+  void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
+    Character result = in.get<Character>(names_.textured());
+    const auto& graft = in.get<Graft>(names_.graft());
+    const auto& joined = in.get<SurfaceResult>(names_.surface()).joined;
+    for (const ClipRequest& request : clips_) {
+      Clip clip = in.get<CompletedClip>(names_.clip(request.name)).clip;
+      clip.morphs = morphs_on_result(clip.morphs, request.input, graft, joined);
+      result.clips.push_back(std::move(clip));
+    }
+    validate(result);
+    GlbOptions options = options_;
+    options.extras_json = provenance(in);
+    out.put(names_.glb(), write_glb(result, options));
+    const std::string obj = wants_obj_ ? write_obj(result) : std::string();
+    const auto* begin = reinterpret_cast<const std::byte*>(obj.data());
+    out.put(names_.obj(), Bytes(begin, begin + obj.size()));
+    out.put(names_.result(), std::move(result));
+  }
+
+ private:
+  // What the file was made of; digests only, no paths, dates or hosts.
+  std::string provenance(const StageInput& in) const {
+    return fmt::format(R"({{"version":"{}","character":"{}","graft":"{}"}})", kVersion,
+                       in.digest(names_.textured()).hex(), in.digest(names_.graft()).hex());
+  }
+
+  ArtifactNames names_;
+  std::vector<ClipRequest> clips_;
+  GlbOptions options_;
+  bool wants_obj_ = false;
+};
+
+}  // namespace
+
+StagePointer make_export_stage(const ArtifactNames& names, const Recipe& recipe,
+                               std::span<const ClipRequest> clips) {
+  return std::make_unique<Export>(names, recipe, clips);
+}
+
+}  // namespace skinforge

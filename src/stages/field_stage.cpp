@@ -1,0 +1,51 @@
+#include "stages/site_solids.h"
+#include "stages/stages.h"
+
+namespace skinforge {
+namespace {
+
+/// delta_R of one operation (Sec. 6.1), and the same as a file that other tools open.
+class Field final : public Stage {
+ public:
+  Field(ArtifactNames names, const Recipe& recipe, std::size_t site) : names_(std::move(names)), site_(site) {
+    options_.voxel_factor = recipe.surface.voxel_factor;
+    wanted_ = recipe.operations[site].blend;
+  }
+
+  StageInfo info() const override {
+    return {.name = "field",
+            .instance = std::to_string(site_ + 1),
+            .version = 1,
+            .reads = {names_.graft(), names_.placed(), names_.selection()},
+            .writes = {names_.field(site_), names_.vdb(site_)}};
+  }
+  void add_to_key(Hasher& key) const override {
+    key.add_value("site", site_);
+    key.add_value("options", options_);
+    key.add_value("blend", wanted_);
+  }
+
+  void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
+    SiteSolids solids =
+        site_solids(in.get<Graft>(names_.graft()), site_, in.get<std::vector<PolygonMesh>>(names_.placed()),
+                    in.get<std::vector<SourceSelection>>(names_.selection()));
+    SiteField field;
+    if (solids.can_blend()) field = build_site_field(solids.solids, solids.blend, options_);
+    out.put(names_.vdb(site_), field.is_empty() ? Bytes() : to_vdb(field.distance));
+    out.put(names_.field(site_), std::move(field));
+  }
+
+ private:
+  ArtifactNames names_;
+  std::size_t site_;
+  FieldOptions options_;
+  Blend wanted_;
+};
+
+}  // namespace
+
+StagePointer make_field_stage(const ArtifactNames& names, const Recipe& recipe, std::size_t site) {
+  return std::make_unique<Field>(names, recipe, site);
+}
+
+}  // namespace skinforge

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include "stages/site_solids.h"
+#include "stages/stages.h"
+
+namespace skinforge {
+namespace {
+
+// All preserved triangles: what an isosurface is trimmed clear of.
+TriangleBvh preserved_bvh(std::span<const PreservedSource> sources) {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+  for (const PreservedSource& source : sources) {
+    const auto first = static_cast<std::int32_t>(positions.size());
+    positions.insert(positions.end(), source.mesh->positions.begin(), source.mesh->positions.end());
+    const Triangulation all = triangulate(*source.mesh);
+    for (std::size_t t = 0; t < all.triangles.size(); ++t) {
+      if (!source.selection.kept[all.face[t].index()]) continue;
+      const auto& c = all.triangles[t];
+      triangles.push_back({c[0].value + first, c[1].value + first, c[2].value + first});
+    }
+  }
+  return {positions, triangles};
+}
+
+/// M_J of every operation, and M_R (Sec. 6.1).
+class MakeJunctions final : public Stage {
+ public:
+  MakeJunctions(ArtifactNames names, const Recipe& recipe)
+      : names_(std::move(names)), site_count_(recipe.operations.size()) {}
+
+  StageInfo info() const override {
+    StageInfo info{.name = "junction",
+                   .version = 1,
+                   .reads = {names_.graft(), names_.placed(), names_.selection()},
+                   .writes = {names_.surface()}};
+    for (std::size_t k = 0; k < site_count_; ++k) info.reads.push_back(names_.field(k));
+    return info;
+  }
+  void add_to_key(Hasher& key) const override { key.add_value("options", options_); }
+
+  void run(const StageInput& in, StageOutput& out, IssueSink& issues) const override {
+    const auto& graft = in.get<Graft>(names_.graft());
+    const auto& placed = in.get<std::vector<PolygonMesh>>(names_.placed());
+    const auto& selections = in.get<std::vector<SourceSelection>>(names_.selection());
+    std::vector<PreservedSource> sources;
+    for (std::size_t s = 0; s < placed.size(); ++s) sources.push_back({&placed[s], selections[s]});
+    std::vector<SiteSolids> sites;
+    for (std::size_t k = 0; k < site_count_; ++k) {
+      sites.push_back(site_solids(graft, k, placed, selections));
+      discard_moved_faces(sources, sites[k].participants, sites[k].solids, in.get<SiteField>(names_.field(k)),
+                          k, options_);
+    }
+    for (PreservedSource& source : sources) clean_borders(source, options_);
+    const TriangleBvh kept = preserved_bvh(sources);
+    SurfaceResult result;
+    for (std::size_t k = 0; k < site_count_; ++k) {
+      int arcs = 0;
+      std::vector<JunctionLoop> loops = loops_of(sources, sites[k].participants, k, arcs);
+      result.junctions.push_back(build_junction(std::move(loops), in.get<SiteField>(names_.field(k)), kept));
+      result.arcs.push_back(arcs);
+      tell(result.junctions.back(), k, arcs, issues);
+    }
+    result.joined = assemble_surface(sources, result.junctions);
+    for (PreservedSource& source : sources) result.kept.push_back(std::move(source.selection.kept));
+    out.put(names_.surface(), std::move(result));
+  }
+
+ private:
+  static std::vector<JunctionLoop> loops_of(std::span<const PreservedSource> sources,
+                                            std::span<const SiteParticipant> participants, std::size_t site,
+                                            int& arcs) {
+    std::vector<JunctionLoop> loops;
+    for (const SiteParticipant& p : participants) {
+      auto found = loops_of_site(sources[p.source.index()], p.source, site, p.is_host, arcs);
+      loops.insert(loops.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+    }
+    return loops;
+  }
+
+  static void tell(const Junction& junction, std::size_t site, int arcs, IssueSink& issues) {
+    const std::string place = fmt::format("op {}", site + 1);
+    if (junction.rung == JunctionRung::None) issues.note("joined-rigidly", place, junction.reason);
+    if (junction.rung == JunctionRung::Bridge ||
+        (junction.rung == JunctionRung::Cap && !junction.reason.empty()))
+      issues.warn("junction-fallback", place, junction.reason);
+    if (arcs > 0)
+      issues.warn("border-arc-open", place,
+                  fmt::format("{} borders end on an open hem of the input and are left open", arcs));
+  }
+
+  ArtifactNames names_;
+  std::size_t site_count_;
+  PreserveOptions options_;
+};
+
+}  // namespace
+
+StagePointer make_junction_stage(const ArtifactNames& names, const Recipe& recipe) {
+  return std::make_unique<MakeJunctions>(names, recipe);
+}
+
+}  // namespace skinforge

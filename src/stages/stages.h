@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "animation/completion.h"
+#include "io/export.h"
+#include "pipeline/stage.h"
+#include "recipe/recipe.h"
+#include "skeleton/graft.h"
+#include "stages/artifacts.h"
+#include "surface/preserved.h"
+#include "surface/site_field.h"
+
+/// The stages of a build, in order: one function each, one small file each (src/stages/<name>_stage.cpp). A
+/// stage takes artifacts, calls one algorithm and stores artifacts; its parameters are what it was made with.
+namespace skinforge {
+
+using StagePointer = std::unique_ptr<Stage>;
+
+/// file:* -> imported:<input>, contents. `files`: name of each file, the character first, then those of the
+/// clip files; `clip_files`: for each clip file, how many of the last entries belong to it.
+struct ImportParameters {
+  std::string input;
+  std::vector<std::vector<std::string>> file_names;  ///< the character's files, then each clip file's
+};
+StagePointer make_import_stage(const ArtifactNames& names, ImportParameters parameters);
+
+/// imported:<input> -> character:<input>: poses it before it is mixed (Sec. 4.1).
+StagePointer make_pose_stage(const ArtifactNames& names, const RecipeInput& input);
+
+/// <nested>result -> character:<input>, contents: a finished recipe as an input of another.
+StagePointer make_adopt_stage(const ArtifactNames& names, const ArtifactNames& nested,
+                              const std::string& input);
+
+/// character:* -> placement: operations with their placements (Sec. 4.1).
+StagePointer make_place_stage(const ArtifactNames& names, const Recipe& recipe);
+
+/// character:*, placement -> graft (Sec. 4).
+StagePointer make_graft_skeleton_stage(const ArtifactNames& names, const Recipe& recipe);
+
+/// character:*, graft -> joint_maps (Sec. 5).
+StagePointer make_map_joints_stage(const ArtifactNames& names, const Recipe& recipe);
+
+/// character:*, placement, graft -> placed meshes, selection (Sec. 6).
+StagePointer make_select_stage(const ArtifactNames& names, const Recipe& recipe);
+
+/// placed, selection, graft -> field:<site>, vdb:<site> (Sec. 6.1).
+StagePointer make_field_stage(const ArtifactNames& names, const Recipe& recipe, std::size_t site);
+
+/// placed, selection, graft, field:* -> surface (Sec. 6.1).
+StagePointer make_junction_stage(const ArtifactNames& names, const Recipe& recipe);
+
+/// character:*, surface, placed, selection, graft, joint_maps -> bound: the result without clips and junction
+/// colours (Sec. 7).
+StagePointer make_bind_stage(const ArtifactNames& names, const Recipe& recipe);
+
+/// character:<input>, graft, joint_maps -> motion:<source> (Sec. 8.1).
+StagePointer make_motion_stage(const ArtifactNames& names, const Recipe& recipe, std::size_t source,
+                               const std::string& input);
+
+/// character:*, graft, motion:* -> clip:<name> (Sec. 8).
+struct ClipRequest {
+  std::size_t input = 0;
+  std::size_t clip = 0;  ///< index in that input
+  std::string name;      ///< in the result
+};
+StagePointer make_complete_clip_stage(const ArtifactNames& names, const Recipe& recipe,
+                                      std::size_t source_count, const ClipRequest& request);
+
+/// bound, surface, placed, selection, character:* -> textured (Sec. 7.2 and beyond).
+StagePointer make_texture_stage(const ArtifactNames& names, const Recipe& recipe);
+
+/// textured, clip:* -> result, glb, obj.
+StagePointer make_export_stage(const ArtifactNames& names, const Recipe& recipe,
+                               std::span<const ClipRequest> clips);
+
+/// glb, result -> validation: the file read back and compared.
+StagePointer make_validate_stage(const ArtifactNames& names);
+
+/// result, surface -> picture:*.
+StagePointer make_pictures_stage(const ArtifactNames& names, const Recipe& recipe,
+                                 std::span<const ClipRequest> clips);
+
+/// everything -> report.
+StagePointer make_report_stage(const ArtifactNames& names, const Recipe& recipe,
+                               std::span<const ClipRequest> clips);
+
+}  // namespace skinforge
