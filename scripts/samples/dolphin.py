@@ -117,7 +117,7 @@ def make():
     _sculpt(main)
     eyes = [ball(EYE * [side, 1, 1], np.array([0.040, 0.052, 0.048]), "Head", "eye" + end, LOOK * [side, 1, 1]).bind(s.names).subdivided()
             for side, end in ((1, ".L"), (-1, ".R"))]
-    mesh = merged([main] + eyes).limit_weights()
+    mesh = merged([main] + eyes).favour_children(s.parent_of()).limit_weights()
     clips = [Clip("Idle", 3.0, idle), Clip("Swim", 1.0, swim), Clip("Leap", 2.5, leap), Clip("Roll", 2.0, roll)]
     return Character("dolphin", mesh, s, clips, paint_dolphin, {"head": 2.0, "eye": 3.0, "eye_back": 0.4}, roughness=0.45)
 

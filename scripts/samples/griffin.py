@@ -255,7 +255,7 @@ def make():
     _sculpt(main)
     eyes = [ball(EYE * [side, 1, 1], np.array([0.046, 0.062, 0.054]), "Head", "eye" + end, LOOK * [side, 1, 1]).bind(s.names).subdivided()
             for side, end in ((1, ".L"), (-1, ".R"))]
-    mesh = merged([main] + eyes).limit_weights()
+    mesh = merged([main] + eyes).favour_children(s.parent_of()).limit_weights()
     clips = [Clip("Idle", 3.0, idle), Clip("Walk", 1.0, walk), Clip("Fly", 1.0, fly), Clip("Screech", 2.5, screech)]
     return Character("griffin", mesh, s, clips, paint_griffin, {"head": 1.7, "beak": 1.5, "eye": 3.2, "eye_back": 0.4, "feather": 0.8, "wing": 0.9})
 

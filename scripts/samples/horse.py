@@ -211,7 +211,7 @@ def make():
     hair = mane().bind(s.names).subdivided().smooth_weights(4)
     eyes = [ball(EYE * [side, 1, 1], np.array([0.040, 0.062, 0.056]), "Head", "eye" + end, LOOK * [side, 1, 1]).bind(s.names).subdivided()
             for side, end in ((1, ".L"), (-1, ".R"))]
-    mesh = merged([main, hair] + eyes).limit_weights()
+    mesh = merged([main, hair] + eyes).favour_children(s.parent_of()).limit_weights()
     clips = [Clip("Idle", 3.0, idle), Clip("Walk", 1.25, walk), Clip("Gallop", 0.625, gallop), Clip("Rear", 2.5, rear)]
     scale = {"head": 1.5, "eye": 4.0, "eye_back": 0.4, "hoof_sole": 0.4, "front_sole": 0.4}
     return Character("horse", mesh, s, clips, paint_horse, scale)

@@ -103,7 +103,7 @@ def _arm(cage, hole):
     def ring(t, up, front, joint, down=None, forward=0.0):
         return cage.ring(8, arm_at(t, forward), ARM_UP, FORWARD, up, front, joint, down)
 
-    sleeve = [ring(0.030, 0.072, 0.078, "UpperArm.L", 0.080), ring(0.090, 0.062, 0.066, "UpperArm.L", 0.066),
+    sleeve = [ring(0.030, 0.072, 0.078, ("Shoulder.L", "UpperArm.L"), 0.080), ring(0.090, 0.062, 0.066, "UpperArm.L", 0.066),
               ring(0.160, 0.056, 0.058, "UpperArm.L"), ring(ELBOW - 0.035, 0.052, 0.053, "UpperArm.L"),
               ring(ELBOW, 0.051, 0.052, ("UpperArm.L", "LowerArm.L")), ring(ELBOW + 0.035, 0.052, 0.053, "LowerArm.L"),
               ring(0.345, 0.055, 0.056, "LowerArm.L"), ring(0.395, 0.060, 0.062, "LowerArm.L"),
@@ -225,7 +225,7 @@ def make():
     _comb(locks)
     eyes = [ball(EYE * [side, 1, 1], np.array([0.041, 0.054, 0.026]), "Head", "eye" + end).bind(s.names).subdivided()
             for side, end in ((1, ".L"), (-1, ".R"))]
-    mesh = merged([main, locks] + eyes).limit_weights()
+    mesh = merged([main, locks] + eyes).favour_children(s.parent_of()).limit_weights()
     clips = [Clip("Idle", 3.0, idle), Clip("Walk", 1.0, walk), Clip("Wave", 2.5, greet), Clip("Jump", 1.5, jump)]
     scale = {"face": 2.3, "head": 0.9, "eye": 2.6, "eye_back": 0.3, "hair_inside": 0.2, "scarf": 1.1, "hand": 1.1, "hair": 0.8}
     return Character("human", mesh, s, clips, paint_human, scale)

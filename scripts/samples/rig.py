@@ -37,6 +37,9 @@ class Skeleton:
     def head(self, name):
         return self.heads[self.names.index(name)]
 
+    def parent_of(self):
+        return dict(zip(self.names, self.parents))
+
     def tail(self, name):
         """Where the bone of a joint ends: at its first child, else a little on in its own direction."""
         children = [c for c, p in enumerate(self.parents) if p == name]
