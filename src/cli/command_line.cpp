@@ -16,8 +16,10 @@ namespace skinforge {
 namespace {
 constexpr std::size_t kMaxJobs = 1024;  // ours: far above any machine it runs on
 
-const std::map<std::string, ReportLevel> kReportLevels = {
-    {"none", ReportLevel::None}, {"json", ReportLevel::Json}, {"full", ReportLevel::Full}};
+ReportLevel report_level(const std::string& word) {
+  if (word == "none") return ReportLevel::None;
+  return word == "json" ? ReportLevel::Json : ReportLevel::Full;
+}
 
 std::string default_cache() {
   const char* folder = std::getenv("SKINFORGE_CACHE");
@@ -48,7 +50,7 @@ class Parser {
     try {
       app_.parse(arguments);
     } catch (const CLI::CallForHelp&) {
-      return help(chosen(&app_)->help());
+      return help(help_of(chosen(&app_)));
     } catch (const CLI::CallForAllHelp&) {
       return help(app_.help("", CLI::AppFormatMode::All));
     } catch (const CLI::CallForVersion& version) {
@@ -64,6 +66,8 @@ class Parser {
                                        ? "a command is missing" + hint()
                                        : "\"" + verb->get_name() + "\" needs one of: " + names_below(verb));
     line_.verb = verbs_.at(verb);
+    line_.report = report_level(report_);
+    if (!recipe_.empty()) line_.recipes = {recipe_};
     if (line_.verb == Verb::Help) line_.help = help_about(topic_);
     line_.verbosity = quiet_ ? Verbosity::Quiet : verbose_ ? Verbosity::Verbose : Verbosity::Normal;
     return line_;
@@ -78,10 +82,18 @@ class Parser {
     return line_;
   }
 
+  // App::help would go on to the verb that was given.
+  static std::string help_of(const CLI::App* app) {
+    std::string name = app->get_name();
+    for (const CLI::App* parent = app->get_parent(); parent; parent = parent->get_parent())
+      name = parent->get_name() + " " + name;
+    return app->get_formatter()->make_help(app, name, CLI::AppFormatMode::Normal);
+  }
+
   std::string help_about(const std::string& topic) const {
-    if (topic.empty()) return app_.help();
+    if (topic.empty()) return help_of(&app_);
     for (const CLI::App* verb : app_.get_subcommands(nullptr))
-      if (verb->get_name() == topic) return verb->help("skinforge");
+      if (verb->get_name() == topic) return help_of(verb);
     throw Error(ExitCode::Usage, fmt::format("unknown command \"{}\"{}", printable(topic),
                                              nearest_hint(topic, verb_names(&app_))));
   }
@@ -162,8 +174,8 @@ class Parser {
   }
 
   void add_report_option(CLI::App* app) {
-    app->add_option("--report", line_.report, "none, json, or full (with pictures)")
-        ->transform(CLI::CheckedTransformer(kReportLevels).description(""))
+    app->add_option("--report", report_, "What to say about the result: none, json, or full (with pictures)")
+        ->check(CLI::IsMember({"none", "json", "full"}).description(""))
         ->type_name("LEVEL")
         ->default_str("full")
         ->group("Output");
@@ -173,6 +185,10 @@ class Parser {
     app->add_option("RECIPE", line_.recipes, "Recipe files: .json, .jsonc, .yaml, .yml")
         ->required()
         ->type_name("");
+  }
+
+  void add_recipe(CLI::App* app) {
+    app->add_option("RECIPE", recipe_, "Recipe file")->required()->type_name("");
   }
 
   void add_recipe_verbs() {
@@ -200,16 +216,14 @@ class Parser {
   void add_stage_verbs() {
     CLI::App* stage = add_group("stage", "List the stages of a recipe, or run one of them");
     CLI::App* run = add_verb(stage, "run", "Run one stage and what it needs, into the cache", Verb::StageRun);
-    add_recipes(run);
-    run->get_option("RECIPE")->expected(1);
+    add_recipe(run);
     run->add_option("STAGE", line_.stage, "Name as `stage list` prints it, e.g. \"import horse\"")
         ->required()
         ->type_name("");
     add_report_option(run);
     add_work_options(run);
     CLI::App* list = add_verb(stage, "list", "Print the names of all stages", Verb::StageList);
-    add_recipes(list);
-    list->get_option("RECIPE")->expected(1);
+    add_recipe(list);
     add_report_option(list);
     add_work_options(list);
   }
@@ -240,6 +254,8 @@ class Parser {
   CommandLine line_;
   std::map<const CLI::App*, Verb> verbs_;
   std::string topic_;
+  std::string recipe_;
+  std::string report_ = "full";
   bool quiet_ = false;
   bool verbose_ = false;
 };

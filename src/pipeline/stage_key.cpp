@@ -7,6 +7,8 @@
 namespace skinforge {
 
 namespace {
+constexpr std::size_t kMaxReasons = 8;  // ours: an export reads every clip; a line should stay a line
+
 // Value of the n-th field called `name` (a name may occur more than once); none when there are fewer.
 std::optional<std::string> nth_value(const std::vector<HashedField>& items, const std::string& name,
                                      std::size_t n) {
@@ -79,7 +81,10 @@ std::string why_run(const StageInfo& info, const StageKey& now, const std::optio
     changes.push_back(fmt::format("stage version {} -> {}", last->version, info.version));
   add_parameter_changes(now, *last, changes);
   add_input_changes(now, *last, changes);
-  return changes.empty() ? "the order of its inputs changed" : fmt::format("{}", fmt::join(changes, "; "));
+  if (changes.empty()) return "the order of its inputs changed";
+  const std::size_t left_out = changes.size() - std::min(changes.size(), kMaxReasons);
+  changes.resize(changes.size() - left_out);
+  return fmt::format("{}{}", fmt::join(changes, "; "), left_out ? fmt::format("; {} more", left_out) : "");
 }
 
 }  // namespace skinforge

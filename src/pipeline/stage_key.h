@@ -24,7 +24,8 @@ StageKey stage_key(const Stage& stage, const StageInfo& info, const std::string&
                    const std::vector<Digest>& inputs);
 
 /// Why a stage whose key is not in the cache has to run, compared with its last run: "parameter scale: 1 ->
-/// 1.2; input field changed". `last_key`: none if it never ran; `last`: none if that run is no longer stored.
+/// 1.2; input field changed", at most eight changes. `last_key`: none if it never ran; `last`: none if that
+/// run is no longer stored.
 std::string why_run(const StageInfo& info, const StageKey& now, const std::optional<Digest>& last_key,
                     const std::optional<Manifest>& last);
 

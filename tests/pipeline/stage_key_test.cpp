@@ -91,5 +91,16 @@ TEST(WhyRun, ListsEveryDifference) {
   EXPECT_EQ(why_run(info, now, Digest(), std::nullopt), "its last run is no longer in the cache");
 }
 
+TEST(WhyRun, StaysOneLine) {
+  StageKey now;
+  Manifest last;
+  for (int i = 0; i < 10; ++i) {
+    now.inputs.push_back({std::to_string(i), "new"});
+    last.inputs.push_back({std::to_string(i), "old"});
+  }
+  const std::string reason = why_run({.name = "export", .version = 0}, now, sha256({}), last);
+  EXPECT_TRUE(reason.ends_with("input 7 changed; 2 more")) << reason;
+}
+
 }  // namespace
 }  // namespace skinforge
