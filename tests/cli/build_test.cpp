@@ -1,0 +1,253 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "testing/assets.h"
+#include "testing/program.h"
+#include "testing/temporary_folder.h"
+
+// Whole builds of real characters: the same bytes whatever happens, and nothing done twice.
+namespace skinforge {
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Program;
+using testing::ProgramResult;
+
+std::string read_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Relative name -> content of every file but the timings, which tell of this run.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& item : fs::recursive_directory_iterator(folder))
+    if (item.is_regular_file() && item.path().filename() != "timings.json")
+      files[fs::relative(item.path(), folder)] = read_text(item.path());
+  return files;
+}
+
+class Build : public ::testing::Test {
+ protected:
+  void SetUp() override { SKINFORGE_NEEDS_SHARED(); }
+
+  ProgramResult call(std::vector<std::string> arguments) const {
+    return Program(SKINFORGE_BINARY, std::move(arguments), folder.path()).finish();
+  }
+  std::vector<std::string> build(const std::string& recipe, const std::string& out,
+                                 const std::string& cache = "cache") const {
+    return {"build", recipe, "--out", out, "--cache", cache, "--report", "json", "--json"};
+  }
+  // Stage -> status of a --json answer.
+  static std::map<std::string, std::string> statuses(const ProgramResult& result) {
+    std::map<std::string, std::string> found;
+    for (const json& stage : json::parse(result.out).at("recipes").at(0).at("stages"))
+      found[stage.at("stage")] = stage.at("status");
+    return found;
+  }
+  // A recipe of the shared folder under another roof, changed by `change`.
+  std::string copied_recipe(const std::string& name, const std::function<void(json&)>& change) const {
+    json recipe = json::parse(read_text(testing::shared_file("recipes/" + name)));
+    const fs::path assets = fs::canonical(testing::shared_file("assets"));
+    for (json& input : recipe.at("inputs")) {
+      const fs::path file = assets / fs::path(input.get<std::string>()).lexically_relative("../assets");
+      input = fs::relative(file, fs::canonical(folder.path())).string();
+    }
+    change(recipe);
+    std::ofstream(folder / name) << recipe.dump(1);
+    return name;
+  }
+
+  testing::TemporaryFolder folder;
+  const std::string horse = fs::absolute(testing::shared_file("recipes/d13_remove_horse_tail.json"));
+};
+
+TEST_F(Build, ASecondOneDoesNothing) {
+  const ProgramResult first = call(build(horse, "out"));
+  ASSERT_EQ(first.status, 0) << first.err;
+  const auto made = contents(folder / "out");
+  EXPECT_TRUE(made.contains("d13_remove_horse_tail.glb"));
+  EXPECT_TRUE(made.contains("report.json"));
+  const ProgramResult second = call(build(horse, "out"));
+  EXPECT_EQ(second.status, 0);
+  for (const auto& [stage, status] : statuses(second)) EXPECT_EQ(status, "hit") << stage;
+  for (const json& file : json::parse(second.out).at("recipes").at(0).at("files"))
+    EXPECT_FALSE(file.at("written"));
+  EXPECT_EQ(contents(folder / "out"), made);
+}
+
+TEST_F(Build, SameBytesForAnyJobsAndFolder) {
+  fs::create_directories(folder / "elsewhere");
+  auto one = build(horse, "one", "cache1"), many = build(horse, "../many", "../cache2");
+  one.insert(one.end(), {"-j", "1"});
+  many.insert(many.end(), {"-j", "4"});
+  ASSERT_EQ(call(one).status, 0);
+  ASSERT_EQ(
+      Program(SKINFORGE_BINARY, many, folder / "elsewhere", {{"LC_ALL", "de_DE.UTF-8"}}).finish().status, 0);
+  EXPECT_EQ(contents(folder / "one"), contents(folder / "many"));
+}
+
+// Comments, the order of keys and files touched without a change run nothing; a changed placement runs what
+// depends on it, and no import.
+TEST_F(Build, OnlyWhatChangedRunsAgain) {
+  const std::string recipe = copied_recipe("d7_four_armed_man.json", [](json&) {});
+  ASSERT_EQ(call(build(recipe, "out")).status, 0);
+  const std::string text = read_text(folder / recipe);
+  std::ofstream(folder / recipe) << "// a comment\n" << json::parse(text).dump(4);
+  for (const auto& [stage, status] : statuses(call(build(recipe, "out")))) EXPECT_EQ(status, "hit") << stage;
+
+  json changed = json::parse(text);
+  changed.at("ops").at(0).at("place").at("offset").at(1) =
+      changed.at("ops").at(0).at("place").at("offset").at(1).get<double>() + 0.01;
+  std::ofstream(folder / recipe) << changed.dump();
+  const auto after = statuses(call(build(recipe, "out")));
+  EXPECT_EQ(after.at("place"), "ran");
+  EXPECT_EQ(after.at("export"), "ran");
+  for (const auto& [stage, status] : after)
+    EXPECT_TRUE(!stage.starts_with("import") || status == "hit") << stage;
+}
+
+TEST_F(Build, GoesOnAfterBeingKilled) {
+  ASSERT_EQ(call(build(horse, "whole", "whole-cache")).status, 0);
+  for (int round = 0; round < 12; ++round) {
+    Program program(SKINFORGE_BINARY, build(horse, "out"), folder.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(7 + 23 * round));
+    program.send(SIGKILL);
+    program.finish();
+    if (round % 4 == 3) fs::remove_all(folder / "cache");  // start from nothing now and then
+  }
+  const ProgramResult last = call(build(horse, "out"));
+  ASSERT_EQ(last.status, 0) << last.err;
+  EXPECT_EQ(contents(folder / "out"), contents(folder / "whole"));
+  EXPECT_EQ(call({"cache", "verify", "--cache", "cache"}).status, 0);
+}
+
+// One byte of every file of a warm cache is flipped: the build warns, repairs and gives the same bytes.
+TEST_F(Build, MendsADamagedCache) {
+  ASSERT_EQ(call(build(horse, "out")).status, 0);
+  const auto made = contents(folder / "out");
+  for (const auto& item : fs::recursive_directory_iterator(folder / "cache")) {
+    if (!item.is_regular_file() || item.file_size() == 0) continue;
+    std::fstream file(item.path(), std::ios::in | std::ios::out | std::ios::binary);
+    const auto middle = static_cast<std::streamoff>(item.file_size() / 2);
+    file.seekg(middle);
+    const int byte = file.get();
+    file.seekp(middle);
+    file.put(static_cast<char>(byte ^ 1));
+  }
+  fs::remove_all(folder / "out");
+  const ProgramResult result = call(build(horse, "out"));
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("[cache-entry-damaged]"));
+  EXPECT_EQ(contents(folder / "out"), made);
+}
+
+TEST_F(Build, SeveralAtOnceShareACache) {
+  std::vector<std::unique_ptr<Program>> programs;
+  for (int i = 0; i < 3; ++i)
+    programs.push_back(
+        std::make_unique<Program>(SKINFORGE_BINARY, build(horse, "out" + std::to_string(i)), folder.path()));
+  for (const auto& program : programs) {
+    const ProgramResult result = program->finish();
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, Not(HasSubstr("warning: ac/")));
+  }
+  EXPECT_EQ(contents(folder / "out0"), contents(folder / "out1"));
+  EXPECT_EQ(contents(folder / "out0"), contents(folder / "out2"));
+  for (const auto& item : fs::recursive_directory_iterator(folder / "cache"))
+    EXPECT_THAT(item.path().filename().string(), Not(HasSubstr(".tmp-")));
+}
+
+TEST_F(Build, PlanSaysWhatWillRun) {
+  const auto plan = [&] { return call({"plan", horse, "--cache", "cache", "--report", "json"}).out; };
+  EXPECT_THAT(plan(), HasSubstr("run   import horse  (never run)"));
+  EXPECT_THAT(plan(), HasSubstr("further stages follow"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  ASSERT_EQ(call(build(horse, "out")).status, 0);
+  EXPECT_THAT(plan(), HasSubstr("hit   import horse\n"));
+  EXPECT_THAT(plan(), Not(HasSubstr("\nrun ")));
+}
+
+TEST_F(Build, OneStageAtATimeGivesTheSameBytes) {
+  ASSERT_EQ(call(build(horse, "whole", "whole-cache")).status, 0);
+  const ProgramResult list = call({"stage", "list", horse, "--cache", "cache", "--report", "json", "--json"});
+  ASSERT_EQ(list.status, 0) << list.err;
+  for (const json& stage : json::parse(list.out).at("stages"))
+    ASSERT_EQ(call({"stage", "run", horse, stage.at("stage"), "--cache", "cache", "--report", "json"}).status,
+              0);
+  const ProgramResult result = call(build(horse, "out"));
+  for (const auto& [stage, status] : statuses(result)) EXPECT_EQ(status, "hit") << stage;
+  EXPECT_EQ(contents(folder / "out"), contents(folder / "whole"));
+}
+
+TEST_F(Build, UnknownJointsAndClipsAreNamed) {
+  const std::string joint =
+      copied_recipe("d13_remove_horse_tail.json", [](json& r) { r.at("ops").at(0).at("at") = "Tial1"; });
+  for (const char* verb : {"check", "build"}) {
+    const ProgramResult result = call({verb, joint, "--cache", "cache"});
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("Tial1"));
+    EXPECT_THAT(result.err, HasSubstr("nearest: \"Tail1\""));
+  }
+  const std::string clip =
+      copied_recipe("d13_remove_horse_tail.json", [](json& r) { r["animation"]["clips"] = {"Galop"}; });
+  const ProgramResult result = call({"check", clip, "--cache", "cache"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("Galop"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(Build, CheckAcceptsTheSharedRecipes) {
+  std::vector<std::string> arguments = {"check", "--cache", "cache", "-q"};
+  for (const auto& item : fs::directory_iterator(testing::shared_file("recipes")))
+    arguments.push_back(fs::absolute(item.path()));
+  const ProgramResult result = call(arguments);
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
+TEST_F(Build, HostileRecipesGetTheirVerdicts) {
+  const fs::path hostile = testing::shared_file("hostile");
+  int count = 0;
+  for (const json& item : json::parse(read_text(hostile / "index.json"))) {
+    const std::string file = item.at("file");
+    if (!file.starts_with("gen/recipes/")) continue;
+    ++count;
+    SCOPED_TRACE(file);
+    const ProgramResult result = call({"build", fs::absolute(hostile / file), "--cache", "cache", "--out",
+                                       "out/" + std::to_string(count), "--report", "none"});
+    if (item.at("expect") == "accept") {
+      EXPECT_EQ(result.status, 0) << result.err;
+      continue;
+    }
+    EXPECT_TRUE(result.status == 2 || result.status == 3) << result.status << " " << result.err;
+    EXPECT_THAT(result.err, HasSubstr("error: "));
+    for (const json& word : item.value("message_must_contain", json::array()))
+      EXPECT_THAT(result.err, HasSubstr(word.get<std::string>()));
+    EXPECT_FALSE(fs::exists(folder / ("out/" + std::to_string(count))));
+  }
+  EXPECT_EQ(count, 18);
+}
+
+TEST_F(Build, InspectCountsTheHorse) {
+  const ProgramResult result =
+      call({"inspect", fs::absolute(testing::shared_file("assets/quaternius_horse/horse.glb")), "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const json horse_facts = json::parse(result.out);
+  EXPECT_EQ(horse_facts.at("clips").size(), 13U);
+  EXPECT_EQ(horse_facts.at("materials").size(), 8U);
+  EXPECT_GE(horse_facts.at("joints").size(), 50U);
+  const ProgramResult text =
+      call({"inspect", fs::absolute(testing::shared_file("assets/quaternius_horse/horse.glb"))});
+  EXPECT_THAT(text.out, HasSubstr("clips      13\n"));
+  EXPECT_THAT(text.out, HasSubstr("Gallop"));
+}
+
+}  // namespace
+}  // namespace skinforge
