@@ -108,8 +108,12 @@ json parse(std::string_view text) {
 
 }  // namespace
 
+std::string JsonPlace::place() const {
+  return printable(place_);
+}
+
 void JsonPlace::fail(const std::string& sentence) const {
-  throw Error(ExitCode::BadInput, fmt::format("{}: {}", place_.empty() ? "/" : place_, sentence));
+  throw Error(ExitCode::BadInput, fmt::format("{}: {}", place_.empty() ? "/" : place(), sentence));
 }
 
 bool JsonPlace::is_object() const {
@@ -122,13 +126,16 @@ bool JsonPlace::has(std::string_view key) const {
 }
 
 JsonPlace JsonPlace::get(std::string_view key) const {
-  if (!has(key)) fail(fmt::format("\"{}\" is missing", key));
-  return {value_->find(key).value(), fmt::format("{}/{}", place_, printable(key))};
+  auto found = find(key);
+  if (!found) fail(fmt::format("\"{}\" is missing", printable(key)));
+  return std::move(*found);
 }
 
 std::optional<JsonPlace> JsonPlace::find(std::string_view key) const {
-  if (!has(key)) return std::nullopt;
-  return get(key);
+  if (!value_->is_object()) fail(fmt::format("found {}, wanted an object", value_->type_name()));
+  const auto member = value_->find(key);
+  if (member == value_->end()) return std::nullopt;
+  return JsonPlace(*member, std::string(place_).append("/").append(key));
 }
 
 std::vector<std::string> JsonPlace::keys() const {
@@ -145,7 +152,7 @@ std::size_t JsonPlace::size() const {
 
 JsonPlace JsonPlace::at(std::size_t i) const {
   if (i >= size()) fail(fmt::format("has {} elements, wanted more than {}", size(), i));
-  return {(*value_)[i], fmt::format("{}/{}", place_, i)};
+  return {(*value_)[i], std::string(place_).append("/").append(std::to_string(i))};
 }
 
 std::vector<JsonPlace> JsonPlace::objects(std::string_view key) const {
@@ -201,16 +208,20 @@ std::vector<double> JsonPlace::numbers(std::size_t n) const {
 }
 
 double JsonPlace::number_or(std::string_view key, double fallback) const {
-  return has(key) ? get(key).number() : fallback;
+  const auto member = find(key);
+  return member ? member->number() : fallback;
 }
 std::size_t JsonPlace::count_or(std::string_view key, std::size_t fallback) const {
-  return has(key) ? get(key).count() : fallback;
+  const auto member = find(key);
+  return member ? member->count() : fallback;
 }
 std::string JsonPlace::text_or(std::string_view key, std::string_view fallback) const {
-  return has(key) ? get(key).text() : std::string(fallback);
+  const auto member = find(key);
+  return member ? member->text() : std::string(fallback);
 }
 bool JsonPlace::flag_or(std::string_view key, bool fallback) const {
-  return has(key) ? get(key).flag() : fallback;
+  const auto member = find(key);
+  return member ? member->flag() : fallback;
 }
 
 JsonDocument::JsonDocument(std::span<const std::byte> text)

@@ -18,7 +18,7 @@ class JsonPlace {
  public:
   JsonPlace(const nlohmann::json& value, std::string place) : value_(&value), place_(std::move(place)) {}
 
-  const std::string& place() const { return place_; }
+  std::string place() const;
   [[noreturn]] void fail(const std::string& sentence) const;
 
   bool is_object() const;

@@ -93,9 +93,18 @@ void add_uris(std::vector<Reference>& list, const std::string& asset, const Json
   }
 }
 
+/// Whether the JSON chunk of a GLB may name files; most do not, and need not be parsed for it.
+bool mentions_uris(std::span<const std::byte> json) {
+  return std::string_view(reinterpret_cast<const char*>(json.data()), json.size()).find("\"uri\"") !=
+         std::string_view::npos;
+}
+
 std::vector<Reference> gltf_references(const InputFile& file) {
   const std::span<const std::byte> bytes(file.bytes);
-  const JsonDocument document(is_glb(bytes) ? parse_glb(bytes).json : bytes);
+  const bool binary = is_glb(bytes);
+  const auto json = binary ? parse_glb(bytes).json : bytes;
+  if (binary && !mentions_uris(json)) return {};
+  const JsonDocument document(json);
   std::vector<Reference> list;
   add_uris(list, file.path, document.root(), "buffers", true);
   add_uris(list, file.path, document.root(), "images", false);

@@ -50,18 +50,30 @@ class ObjWriter {
   }
 
  private:
-  void write_vertices() {
-    std::vector<const Vec4*> color(mesh_.vertex_count(), nullptr);
-    for (std::size_t c = 0; c < mesh_.colors.size(); ++c) {
-      const Vec4*& slot = color[mesh_.corners[c].index()];
-      if (slot == nullptr) slot = &mesh_.colors[c];
+  /// Colour of each vertex: that of its first corner; white where its part has none.
+  std::vector<Vec4> vertex_colors() const {
+    std::vector<Vec4> colors(mesh_.colors.empty() ? 0 : mesh_.vertex_count(), Vec4::Ones());
+    std::vector<bool> is_set(colors.size(), false);
+    for (std::size_t f = 0; f < mesh_.face_count() && !colors.empty(); ++f) {
+      if (!mesh_.parts[mesh_.face_part[f].index()].has_colors) continue;
+      const std::size_t begin = mesh_.first_corner(FaceId(f));
+      for (std::size_t c = begin; c < begin + mesh_.face(FaceId(f)).size(); ++c) {
+        const std::size_t v = mesh_.corners[c].index();
+        if (!is_set[v]) colors[v] = mesh_.colors[c];
+        is_set[v] = true;
+      }
     }
+    return colors;
+  }
+
+  void write_vertices() {
+    const std::vector<Vec4> colors = vertex_colors();
     for (std::size_t v = 0; v < mesh_.vertex_count(); ++v) {
       const Vec3& p = mesh_.positions[v];
       fmt::format_to(std::back_inserter(out_), "v {:.9g} {:.9g} {:.9g}", p.x(), p.y(), p.z());
-      if (color[v] != nullptr)
-        fmt::format_to(std::back_inserter(out_), " {:.6g} {:.6g} {:.6g}", color[v]->x(), color[v]->y(),
-                       color[v]->z());
+      if (!colors.empty())
+        fmt::format_to(std::back_inserter(out_), " {:.6g} {:.6g} {:.6g}", colors[v].x(), colors[v].y(),
+                       colors[v].z());
       out_ += '\n';
     }
   }
@@ -90,8 +102,9 @@ class ObjWriter {
     if (part != part_) faces += "g " + word(mesh_.parts[part.index()].name) + '\n';
     part_ = part;
     const MaterialId material = mesh_.face_material[face.index()];
-    if (material.is_valid() && material != material_)
-      faces += "usemtl " + word(character_.materials[material.index()].name) + '\n';
+    if (material != material_)
+      faces += "usemtl " +
+               (material.is_valid() ? word(character_.materials[material.index()].name) : "none") + '\n';
     material_ = material;
   }
 
