@@ -204,6 +204,7 @@ def _material(character, png):
     texture.image = bpy.data.images.load(path)
     texture.image.name = character.name
     texture.image.pack()
+    texture.image.filepath = f"//{character.name}.png"  # the exporters write this name, not where it was painted
     material.node_tree.links.new(texture.outputs["Color"], shader.inputs["Base Color"])
     return material
 
@@ -227,21 +228,23 @@ def _armature(character):
 
 def _actions(character, armature):
     armature.animation_data_create()
+    moved = {joint for clip in character.clips for f in range(clip.frames + 1) for joint in clip.sample(f)}
     for clip in character.clips:
         action = bpy.data.actions.new(clip.name)
         action.use_fake_user = True
-        _fill_action(action, clip, armature)
+        _fill_action(action, clip, armature, moved)
         track = armature.animation_data.nla_tracks.new()
         track.name = clip.name
         track.strips.new(clip.name, 0, action).name = clip.name
     armature.animation_data.action = None
 
 
-def _fill_action(action, clip, armature):
+def _fill_action(action, clip, armature, moved):
+    """Keys every joint that any clip moves, so that no clip inherits a pose from the one before."""
     frames = list(range(clip.frames + 1))
     samples = [clip.sample(f) for f in frames]
     for bone in armature.pose.bones:
-        if not any(bone.name in s for s in samples):
+        if bone.name not in moved:
             continue
         rest = np.array(bone.bone.matrix_local.to_3x3())
         turns, moves = [], []
@@ -287,7 +290,7 @@ def export_glb(path):
 
 
 def export_fbx(path):
-    """FBX with the texture inside. The exporter stamps the time and hashes names at random; both are fixed here."""
+    """FBX with the texture inside. The exporter stamps time and place and hashes names at random; all fixed here."""
     from io_scene_fbx import export_fbx_bin, fbx_utils
 
     class FixedClock(datetime.datetime):
@@ -300,10 +303,11 @@ def export_fbx(path):
 
     export_fbx_bin.datetime = FixedDatetime
     fbx_utils.hash = lambda key: zlib.crc32(repr(key).encode()) | zlib.adler32(repr(key)[::-1].encode()) << 24
+    export_fbx_bin._gen_vid_path = lambda image, scene_data: (image.name + ".png", image.name + ".png")
     bpy.ops.export_scene.fbx(
         filepath=path, object_types={"ARMATURE", "MESH"}, add_leaf_bones=False, path_mode="COPY",
         embed_textures=True, bake_anim=True, bake_anim_use_all_bones=False, bake_anim_use_nla_strips=True,
-        bake_anim_use_all_actions=False, bake_anim_force_startend_keying=True, bake_anim_simplify_factor=0.05,
+        bake_anim_use_all_actions=False, bake_anim_force_startend_keying=True, bake_anim_simplify_factor=0.0,
         mesh_smooth_type="OFF", use_armature_deform_only=False)
 
 

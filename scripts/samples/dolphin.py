@@ -114,7 +114,7 @@ def make():
     s = skeleton()
     main = body().bind(s.names).subdivided()
     main.smooth_weights(4)
-    _sculpt(main)
+    _sculpt(main.unfold()).unfold()
     eyes = [ball(EYE * [side, 1, 1], np.array([0.040, 0.052, 0.048]), "Head", "eye" + end, LOOK * [side, 1, 1]).bind(s.names).subdivided()
             for side, end in ((1, ".L"), (-1, ".R"))]
     mesh = merged([main] + eyes).favour_children(s.parent_of()).limit_weights()

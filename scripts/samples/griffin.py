@@ -252,7 +252,7 @@ def make():
     s = skeleton()
     main = body().bind(s.names).subdivided()
     main.smooth_weights(4)
-    _sculpt(main)
+    _sculpt(main.unfold()).unfold()
     eyes = [ball(EYE * [side, 1, 1], np.array([0.046, 0.062, 0.054]), "Head", "eye" + end, LOOK * [side, 1, 1]).bind(s.names).subdivided()
             for side, end in ((1, ".L"), (-1, ".R"))]
     mesh = merged([main] + eyes).favour_children(s.parent_of()).limit_weights()
@@ -300,8 +300,8 @@ def _paint_plumage(t, x, y, z):
     a = angle * 3.2 + 0.5 * (number % 2)
     r = np.hypot((a - np.floor(a) - 0.5) * 1.2, row - number)
     lines = band(0.52, 0.66, r, 0.08)
-    t.blend("#d9b98a", ruff * edge * legs_off * lines * 0.65 * ramp(1.38, 1.22, y))
-    t.blend("#c99a63", ruff * edge * legs_off * 0.7 * dots(t.place, 0.055, 0.22, 33) * ramp(0.75, 0.9, y) * ramp(1.30, 1.15, y))
+    t.blend("#d9b98a", ruff * edge * legs_off * lines * 0.55 * ramp(1.28, 1.14, y))
+    t.blend("#c99a63", ruff * edge * legs_off * 0.5 * dots(t.place, 0.060, 0.18, 33) * ramp(0.75, 0.9, y) * ramp(1.25, 1.10, y))
 
 
 def _paint_legs(t, x, y, z):
@@ -348,7 +348,7 @@ def _paint_face(t, x, y, z):
     t.blend("#c9803f", head * 0.95 * spot(t, (0.175, 1.462, 0.80), (0.10, 0.030, 0.13), 0.6))
     t.blend("#8a4a22", head * spot(t, EYE + [0.0, 0.004, -0.004], (0.075, 0.084, 0.074), 0.35))
     t.blend("#c9803f", head * 0.9 * ramp(0.050, 0.025, side) * ramp(1.52, 1.60, y) * ramp(0.60, 0.75, z))
-    t.blend("#c9803f", head * ramp(1.530, 1.560, y) * ramp(0.095, 0.115, side))
+    t.blend("#c9803f", head * spot(t, (0.150, 1.595, 0.668), (0.062, 0.085, 0.085), 0.5))
     t.blend("#5c3219", head * ramp(1.585, 1.610, y) * ramp(0.095, 0.115, side))
     t.blend("#f2b13c", beak)
     t.blend("#f9cf6d", beak * 0.8 * ramp(0.2, 0.8, t.normal[:, 1]))

@@ -207,8 +207,8 @@ def make():
     s = skeleton()
     main = body().bind(s.names).subdivided()
     main.smooth_weights(4)
-    _sculpt(main)
-    hair = mane().bind(s.names).subdivided().smooth_weights(4)
+    _sculpt(main.unfold()).unfold()
+    hair = mane().bind(s.names).subdivided().unfold().smooth_weights(4)
     eyes = [ball(EYE * [side, 1, 1], np.array([0.040, 0.062, 0.056]), "Head", "eye" + end, LOOK * [side, 1, 1]).bind(s.names).subdivided()
             for side, end in ((1, ".L"), (-1, ".R"))]
     mesh = merged([main, hair] + eyes).favour_children(s.parent_of()).limit_weights()
@@ -264,8 +264,9 @@ def _paint_head(t, x, y, z, side):
     t.blend("#f2d9cb", muzzle * 0.65 * ramp(0.045, 0.020, side) * ramp(0.0, 0.3, dorsal))
     nostril = spot(t, (0.100, 1.694, 1.535), (0.025, 0.024, 0.030), 0.5)
     t.blend("#4c2f2c", head * nostril)
-    mouth_line = (z - 1.52) * 0.62 - (y - 1.590) * 0.78
-    t.blend("#5d3a34", head * band(-0.004, 0.004, mouth_line, 0.004) * ramp(1.42, 1.45, z) * ramp(1.66, 1.63, y))
+    height = (z - 1.545) * 0.69 + (y - 1.630) * 0.72  # over the middle of the muzzle, square to the face
+    smile = -0.040 + 0.030 * ramp(1.02, 0.74, along)
+    t.blend("#5d3a34", head * band(-0.0045, 0.0045, height - smile, 0.005) * ramp(0.72, 0.76, along))
     ear_in = head * ramp(2.09, 2.12, y) * ramp(0.15, 0.45, t.normal[:, 2])
     t.blend("#f0c7a4", ear_in * 0.9)
     t.blend("#8b5522", head * ramp(2.22, 2.27, y) * 0.7)
@@ -282,8 +283,8 @@ def _paint_eyes(t):
     u, v = rel @ right, rel @ up
     t.blend("#2b1710", eye)
     iris = ramp(1.1, 0.9, np.hypot(u / 0.041, v / 0.048))
-    t.blend("#6e3d1c", eye * iris)
-    t.blend("#a5662f", eye * ramp(1.1, 0.6, np.hypot(u / 0.034, (v + 0.019) / 0.029)) * 0.8)
+    t.blend("#84491f", eye * iris)
+    t.blend("#c98a45", eye * ramp(1.1, 0.6, np.hypot(u / 0.034, (v + 0.019) / 0.029)) * 0.8)
     t.blend("#120a08", eye * ramp(1.1, 0.9, np.hypot(u / 0.025, v / 0.030)))
     t.blend("#ffffff", eye * ramp(1.15, 0.85, np.hypot((u + 0.012) / 0.0125, (v - 0.019) / 0.0140)))
     t.blend("#ffffff", eye * 0.8 * ramp(1.2, 0.8, np.hypot((u - 0.013) / 0.006, (v + 0.018) / 0.0065)))

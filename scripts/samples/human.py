@@ -14,7 +14,7 @@ ARM = np.array([math.cos(math.radians(42)), -math.sin(math.radians(42)), 0.0])  
 ARM_UP = np.array([-ARM[1], ARM[0], 0.0])
 FORWARD = np.array([0.0, 0.0, 1.0])
 ELBOW, WRIST = 0.255, 0.475  # metres along the arm
-EYE = np.array([0.070, 1.503, 0.124])
+EYE = np.array([0.070, 1.503, 0.120])
 
 
 def arm_at(distance, forward=0.0):
@@ -24,7 +24,7 @@ def arm_at(distance, forward=0.0):
 def skeleton():
     s = Skeleton()
     s.joint("root", None, (0, 0, 0))
-    s.joint("Hips", "root", (0, 0.86, 0))
+    s.joint("Hips", "root", (0, 0.86, -0.012))
     s.joint("Spine", "Hips", (0, 0.985, 0))
     s.joint("Chest", "Spine", (0, 1.10, 0))
     s.joint("Neck", "Chest", (0, 1.305, -0.01))
@@ -61,7 +61,7 @@ SCARF = [  # a soft roll round the neck base
 HEAD = [
     (1.345, -0.004, 0.056, 0.056, 0.060, "Neck", 0.0, 0.0),
     (1.365, 0.000, 0.064, 0.072, 0.070, "Head", 0.0, 0.0),
-    (1.380, 0.006, 0.105, 0.132, 0.100, "Head", -0.12, 0.012),
+    (1.380, 0.006, 0.116, 0.140, 0.104, "Head", -0.10, 0.012),
     (1.425, 0.006, 0.150, 0.156, 0.134, "Head", -0.10, 0.0),
     (1.480, 0.002, 0.174, 0.160, 0.158, "Head", -0.04, 0.0),
     (1.545, -0.004, 0.180, 0.158, 0.172, "Head", 0.0, 0.0),
@@ -169,15 +169,16 @@ def hair():
     """A shell of thick locks from the crown to the hairline, closed inside the head."""
     cage, half = HalfCage(), 10
     middle = np.array([0, 1.535, -0.012])
-    reach = [58, 78, 62, 84, 80, 103, 112, 124, 116, 134, 124]  # polar angle where the lock ends, front to nape
-    out = [1.17, 1.20, 1.16, 1.20, 1.12, 1.16, 1.10, 1.14, 1.08, 1.13, 1.08]
+    # Where each lock ends (polar angle from the crown, front to nape), and how far its tip stands out.
+    reach = [56, 80, 60, 88, 78, 110, 106, 132, 116, 140, 126]
+    out = [1.16, 1.22, 1.15, 1.22, 1.12, 1.20, 1.10, 1.19, 1.09, 1.18, 1.10]
 
     def ring(part, swell):
         ids = []
         for k in range(half + 1):
             theta, phi = math.pi * k / half, math.radians(reach[k] * part)
             radius = 1.15 + (out[k] - 1.13) * swell if swell >= 0 else 1.10 + 0.3 * swell
-            p = middle + radius * np.array([0.174 * math.sin(phi) * math.sin(theta), 0.172 * math.cos(phi),
+            p = middle + radius * np.array([0.174 * math.sin(phi) * math.sin(theta), 0.176 * math.cos(phi),
                                             (0.168 + 0.008 * (theta > 1.6)) * math.sin(phi) * math.cos(theta)])
             if k in (0, half):
                 p[0] = 0.0
@@ -187,7 +188,7 @@ def hair():
     rings = [ring(0.22, 0), ring(0.45, 0.3), ring(0.70, 0.9), ring(0.90, 1.1), ring(1.0, 0.55), ring(0.93, -0.6), ring(0.70, -1.0)]
     for a, b in zip(rings, rings[1:]):
         cage.strip(a, b, "hair")
-    cage.half_fill(rings[0], 2, "hair", (0, 0.014, 0))
+    cage.half_fill(rings[0], 2, "hair", (0, 0.006, 0))
     cage.half_fill(rings[-1], 2, "hair_inside", (0, 0.02, 0))
     for a, b in zip(rings, rings[1:]):
         cage.seams.add(frozenset((a[half], b[half])))
@@ -200,9 +201,10 @@ def _comb(mesh):
     p = mesh.points
     front = np.clip((p[:, 2] - 0.02) / 0.14, 0, 1) * np.clip((p[:, 1] - 1.50) / 0.06, 0, 1)
     p[:, 0] -= 0.050 * front * np.clip((1.70 - p[:, 1]) / 0.12, 0, 1)
-    mesh.push((0.035, 1.705, 0.105), (0.060, 0.045, 0.06), (-0.030, 0.038, 0.030), both_sides=False)
-    mesh.push((-0.075, 1.69, 0.06), (0.05, 0.045, 0.06), (-0.012, 0.020, 0.010), both_sides=False)
-    mesh.push((0.02, 1.70, -0.10), (0.06, 0.05, 0.05), (0.012, 0.024, -0.020), both_sides=False)
+    mesh.push((0.100, 1.680, -0.010), (0.080, 0.060, 0.110), (0.010, 0.012, 0.0))                           # full at the sides
+    mesh.push((0.040, 1.690, 0.110), (0.055, 0.040, 0.045), (-0.030, 0.030, 0.016), both_sides=False)        # the quiff
+    mesh.push((-0.045, 1.720, -0.070), (0.040, 0.040, 0.040), (-0.012, 0.016, -0.020), both_sides=False)     # the cowlick
+    mesh.push((-0.010, 1.630, -0.175), (0.060, 0.050, 0.040), (0.000, -0.012, -0.014), both_sides=False)
 
 
 def _sculpt(mesh):
@@ -220,9 +222,10 @@ def make():
     s = skeleton()
     main = body().bind(s.names).subdivided()
     main.smooth_weights(3)
-    _sculpt(main)
+    _sculpt(main.unfold()).unfold()
     locks = hair().bind(s.names).subdivided()
     _comb(locks)
+    locks.unfold()
     eyes = [ball(EYE * [side, 1, 1], np.array([0.041, 0.054, 0.026]), "Head", "eye" + end).bind(s.names).subdivided()
             for side, end in ((1, ".L"), (-1, ".R"))]
     mesh = merged([main, locks] + eyes).favour_children(s.parent_of()).limit_weights()
@@ -235,7 +238,7 @@ def make():
 def paint_human(t):
     x, y, z = t.place.T
     side = np.abs(x)
-    skin, tunic, trousers, leather = "#f0b98d", "#2f8f83", "#6b5a48", "#7a4a2b"
+    skin, tunic, trousers, leather = "#f6c39a", "#2f8f83", "#6b5a48", "#7a4a2b"
     t.blend(skin, np.ones(len(x)))
     _paint_clothes(t, x, y, z, tunic, trousers, leather)
     _paint_face(t, x, y, z, side)
@@ -247,7 +250,7 @@ def paint_human(t):
     t.blend("#e0893f", hair * 0.55 * ramp(1.62, 1.74, y) * (0.4 + 0.6 * strand))
     t.blend("#5e2812", hair * 0.5 * ramp(1.55, 1.42, y))
     _paint_eyes(t)
-    light = 0.62 + 0.38 * np.clip(t.open * 1.15, 0, 1)
+    light = 0.68 + 0.32 * np.clip(t.open * 1.18, 0, 1)
     t.shade(np.where(t.on("eye", "eye_back") > 0, 1.0, light))
     t.shade(0.97 + 0.06 * noise(t.place, 0.02, 5))
 

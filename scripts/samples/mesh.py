@@ -164,6 +164,23 @@ class Mesh:
             self.points = self.points + amount * mask[:, None] * step
         return self
 
+    def unfold(self, rounds=12):
+        """Eases the points of quads that are bent by more than a right angle along a diagonal."""
+        for _ in range(rounds):
+            p = self.points[self.faces]
+            first = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+            second = np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 0])
+            third = np.cross(p[:, 2] - p[:, 1], p[:, 3] - p[:, 1])
+            fourth = np.cross(p[:, 3] - p[:, 1], p[:, 0] - p[:, 1])
+            cosine = np.minimum(_cosine(first, second), _cosine(third, fourth))
+            bent = cosine < 0.35
+            if not bent.any():
+                break
+            mask = np.zeros(len(self.points))
+            mask[self.faces[bent].ravel()] = 1
+            self.smooth_points(np.maximum(mask, 0.4 * (self.neighbour_mean(mask[:, None])[:, 0] > 0)), 1, 0.4)
+        return self
+
     def boundary_seams(self):
         """Seams between charts, in addition to the cut lines inside charts."""
         edges, sides = self.edges()
@@ -172,6 +189,10 @@ class Mesh:
             for e in row:
                 seen.setdefault(int(e), set()).add(self.charts[f])
         return self.seams | {tuple(int(i) for i in edges[e]) for e, charts in seen.items() if len(charts) > 1}
+
+
+def _cosine(a, b):
+    return (a * b).sum(axis=1) / np.maximum(np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1), 1e-15)
 
 
 def merged(meshes):
