@@ -151,21 +151,19 @@ class HalfCage:
                 p = (1 - s) * point(grid[0][c]) + s * point(grid[rows][c])
                 if not half:
                     p = 0.5 * p + 0.5 * ((1 - t) * point(grid[r][0]) + t * point(grid[r][columns]))
-                    weight = 1.0
                 else:
                     q = point(grid[r][columns])
                     across = np.array([q[0] * t, q[1], q[2]])
                     p = 0.5 * p + 0.5 * across
                     if c == 0:
                         p[0] = 0.0
-                    weight = 1.0
-                grid[r][c] = self.add(p + weight * np.asarray(bulge, float), self.joints[grid[0][0]])
+                grid[r][c] = self.add(p + np.asarray(bulge, float), self.joints[grid[0][0]])
         for r in range(rows):
             for c in range(columns):
                 self.quad(grid[r][c], grid[r][c + 1], grid[r + 1][c + 1], grid[r + 1][c], chart)
 
     def extrude(self, quad, steps, chart, joint):
-        """Draws one quad out along `steps` = [(offset, scale across u, scale across v)], closing the end.
+        """Draws one quad out along `steps` = [(offset, scale along u, scale along v)], closing the end.
 
         u is the direction of the first edge of the quad, v that of its second; offsets are from the
         quad's centre. Gives fingers, ears, feathers. `joint` is one name, or one name for every step.

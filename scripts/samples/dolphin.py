@@ -60,13 +60,9 @@ def body():
     cage.half_fill(rings[-1], 2, "head", (0, 0, 0.022))
     cage.half_fill(rings[0], 2, "back", (0, 0, -0.015))
     _fluke(cage, cage.open_hole([strips[k][s] for k in (0, 1) for s in (2, 3)]))
-    _flipper(cage, cage.open_hole([strips[k][s] for k in (10, 11) for s in (4,)]))
+    _flipper(cage, cage.open_hole([strips[k][4] for k in (10, 11)]))
     _dorsal(cage, strips, rings)
     return cage.mirrored()
-
-
-def _fin_ring(cage, n, at, chord, thick, half_chord, half_thick, joint):
-    return cage.ring(n, at, chord, thick, half_chord, half_thick, joint)
 
 
 def _fluke(cage, hole):

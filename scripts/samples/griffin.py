@@ -95,7 +95,7 @@ WING = [  # along the span, leading edge, trailing edge, half thickness, joint
     (0.830, 0.190, -0.022, 0.024, "Wing3.L"),
 ]
 FEATHERS = [(0.26, 0.02), (0.34, 0.05), (0.385, 0.09), (0.41, 0.14), (0.425, 0.21), (0.44, 0.31), (0.47, 0.46)]  # length, slant
-PRIMARIES = [(0.54, 0.80), (0.58, 1.18), (0.52, 1.80)]  # length, outward share, back to front reversed below
+PRIMARIES = [(0.54, 0.80), (0.58, 1.18), (0.52, 1.80)]  # length, outward share; from the back to the front
 
 
 def on_wing(s, c, h):
@@ -209,9 +209,8 @@ def _wing(cage, hole):
         over = [cage.add(on_wing(s, c, half * t), joint) for c, t in zip(across, thick)]
         under = [cage.add(on_wing(s, c, -half * t * 0.8), joint) for c, t in zip(across, thick)]
         rings.append(over + under[::-1])
-    loop = cage.tube(hole, rings[0], "wing.L")
+    cage.tube(hole, rings[0], "wing.L")
     for a, b in zip(rings, rings[1:]):
-        start = len(cage.faces)
         cage.tube(a, b, "wing.L")
     for a, b in zip(rings, rings[1:]):
         cage.seams.add(frozenset((a[0], b[0])))
