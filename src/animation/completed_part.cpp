@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "animation/behaviour.h"
 #include "animation/keyframe_path.h"
 #include "animation/landing.h"
 #include "animation/playback.h"
@@ -80,9 +81,17 @@ KeyframePath choose(const DistanceTable& distances, std::span<const Character* c
   const FrameSteps steps = frame_steps(set);
   const std::vector<bool> allowed = allowed_keyframes(motions, part);
   if (choice == KeyframeChoice::Frame) return best_frames(distances, steps, allowed);
-  LandingTable landing(set, characters[part.input]->skeleton, joints_of(graft, part));
+  LandingTable landing(set, characters[part.input]->skeleton, joints_of(graft, part), steps);
   return best_path(
       distances, steps, allowed, [&](std::int32_t frame) { return landing.row(frame); }, is_loop);
+}
+
+std::vector<bool> clips_called_alike(std::span<const Character* const> characters, const DrivingClip& driver,
+                                     const PartToComplete& part) {
+  std::vector<bool> alike;
+  for (const Clip& clip : characters[part.input]->clips)
+    alike.push_back(share_a_word(clip.name, characters[driver.input]->clips[driver.clip].name));
+  return alike;
 }
 
 bool same(const Vec3& a, const Vec3& b) {
@@ -195,8 +204,11 @@ CompletedPart complete_part(std::span<const Character* const> characters, const 
   for (const SourceId a : driver.sources)
     for (const SourceId b : part.sources) pairs.push_back({motions[a.index()], motions[b.index()]});
   const DistanceTable distances = keyframe_distances(pairs, frames.first, frames.rows);
-  const KeyframePath path = choose(windowed(distances, row_steps(frames), frame_steps(set)), characters,
-                                   graft, motions, part, frames.is_loop, options.choice);
+  DistanceTable costs = windowed(distances, row_steps(frames), frame_steps(set));
+  if (options.choice == KeyframeChoice::Sequence)
+    add_behaviour(*pairs.front().driver, frames.first, set, clips_called_alike(characters, driver, part),
+                  costs);
+  const KeyframePath path = choose(costs, characters, graft, motions, part, frames.is_loop, options.choice);
   completed.mean_distance = mean_at(distances, path);
 
   const auto half_fade = static_cast<std::size_t>(std::lround(kHalfFade * options.rate_hz));

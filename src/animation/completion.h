@@ -36,13 +36,15 @@ struct MotionSet {
   std::vector<Pose> poses;                     ///< #frames, local transforms of the input's joints
   std::vector<float> rotations;    ///< #frames x #result joints x 4, global rotations of B(k''), x y z w
   std::vector<double> confidence;  ///< #result joints, summed over the map (Sec. 8.1)
-  std::vector<bool> is_cyclic;     ///< #clips: the last pose meets the first
-  std::vector<bool> is_moving;     ///< #clips: the joints that this source brings to the result move
-  double fastest_turn = 0;         ///< of any joint of the input between frames, local, rad/s
+  std::vector<float>
+      activity;  ///< #frames, mean joint speed over half a second; 1 = the liveliest clip's mean
+  std::vector<bool> is_cyclic;  ///< #clips: the last pose nearly meets the first; `poses` then close exactly
+  std::vector<bool> is_moving;  ///< #clips: the joints that this source brings to the result move
+  double fastest_turn = 0;      ///< of any joint of the input between frames, local, rad/s
 
   template <class Archive>
   friend void fields(Archive& a, MotionSet& m) {
-    a(m.clip_begin, m.frame_time, m.poses, m.rotations, m.confidence, m.is_cyclic, m.is_moving,
+    a(m.clip_begin, m.frame_time, m.poses, m.rotations, m.confidence, m.activity, m.is_cyclic, m.is_moving,
       m.fastest_turn);
   }
 };

@@ -12,7 +12,7 @@ namespace skinforge {
 /// How a path came to a keyframe from the one before.
 enum class PathStep : std::uint8_t {
   Next,  ///< the natural successor
-  Hold,  ///< the same again (half speed); never twice in a row
+  Hold,  ///< the same again (half speed); never twice in a row but at the end of a clip
   Skip,  ///< the successor's successor (double speed)
   Jump,  ///< any other
 };
@@ -26,20 +26,19 @@ struct KeyframePath {
 /// What moving along a path costs, in units of the keyframe distance.
 struct PathCosts {
   float tempo = 0.002F;  ///< a Hold or Skip; ours, see completion.md
-  float jump = 0.1F;     ///< a Jump; ours, see completion.md
-  float landing = 1.0F;  ///< times how far the landing pose is from the one expected; ours, see completion.md
+  float jump = 0.4F;     ///< a Jump; ours, see completion.md
 };
 
-/// How far the pose of candidate b is from that of candidate a, for all b; 0 = the same. The span stays
+/// What landing on each keyframe costs a jump that leaves from `from`: 0 = nobody will notice. The span stays
 /// valid.
-using LandingCosts = std::function<std::span<const float>(std::int32_t a)>;
+using LandingCosts = std::function<std::span<const float>(std::int32_t from)>;
 
 /// The sequence of keyframes with the lowest sum of distances and step costs, by dynamic programming over
-/// (frame, keyframe). A jump from s to c lands away by the mean of the costs (next of s -> c) and (s ->
-/// previous of c), so that velocities count. `allowed`: per candidate; at least one. `is_loop`: frame 0
-/// follows the last frame; the path is closed by two laps of free search, then one lap back to the keyframe
-/// found in the middle. Jumps leave only from the 64 cheapest keyframes of a frame. Cost: frames x candidates
-/// x 64 at worst.
+/// (frame, keyframe). A clip that ends may be held on its last keyframe for as long as it likes, once a third
+/// of a second of it has been played (someone who lies down stays there), but not in a loop. `allowed`: per
+/// candidate; at least one. `is_loop`: frame 0 follows the last frame; the path is closed by two laps of free
+/// search, then one lap back to the keyframe found in the middle. Jumps leave only from the 24 cheapest
+/// keyframes of a frame. Cost: frames x candidates x 24 at worst.
 KeyframePath best_path(const DistanceTable& distances, const FrameSteps& steps,
                        const std::vector<bool>& allowed, const LandingCosts& landing, bool is_loop,
                        const PathCosts& costs = {});

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <span>
 #include <vector>
 
@@ -8,24 +7,30 @@
 
 namespace skinforge {
 
-/// How unlike two keyframes leave a completed part: the mean of 1 - |q . q'| over its joints' local
-/// rotations, plus the largest-moving joints' translations as shares of the skeleton's extent. Joints that
-/// never move are left out.
+/// What jumps between keyframes cost a completed part. Two poses differ by the mean of 1 - |q . q'| over the
+/// local rotations of its 16 most-turning joints, plus the largest difference of their translations as a
+/// share of the skeleton's extent. A jump from s to t costs twice the mean of (next of s, t) and (s, previous
+/// of t), so velocities count too.
 class LandingTable {
  public:
-  /// `joints`: of the input, those that come to the result. `skeleton`: of the input.
-  LandingTable(const MotionSet& set, const Skeleton& skeleton, std::span<const JointId> joints);
+  /// `joints`: of the input, those that come to the result. `skeleton`: of the input. `steps`: of `set`;
+  /// kept.
+  LandingTable(const MotionSet& set, const Skeleton& skeleton, std::span<const JointId> joints,
+               const FrameSteps& steps);
 
-  /// From keyframe `frame` to every keyframe. Rows are worked out when first asked for.
-  std::span<const float> row(std::int32_t frame);
+  /// From keyframe `from` to every keyframe. Rows are worked out when first asked for, and stay.
+  std::span<const float> row(std::int32_t from);
 
  private:
+  const std::vector<float>& pose_distances(std::size_t frame);
+
+  const FrameSteps& steps_;
   std::size_t frames_;
   std::vector<float> rotations_;  // #frames x #turning joints x 4
   std::size_t turning_ = 0;
   RotationTable table_;
   std::vector<std::vector<Vec3>> shifts_;  // per wandering joint, per frame: place in shares of the extent
-  std::map<std::int32_t, std::vector<float>> rows_;
+  std::vector<std::vector<float>> distances_, rows_;
 };
 
 }  // namespace skinforge

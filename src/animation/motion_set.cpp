@@ -11,7 +11,8 @@
 namespace skinforge {
 namespace {
 
-constexpr double kLoopGap = 0.05;      // ours: of the clip's own range; real loops close to 1e-3
+constexpr double kLoopGap = 0.25;             // ours: of the clip's own range; completion.md
+constexpr double kActivityHalfWindow = 0.25;  // seconds; ours: about half a step of a walk
 constexpr double kStillAngle = 0.01;   // radians; ours: a joint that turns less does not count as moving
 constexpr double kStillShift = 0.002;  // ours: of the skeleton's extent
 
@@ -62,6 +63,25 @@ bool is_loop(std::span<const Pose> poses, const Watched& watched) {
   return gap.angle <= kLoopGap * whole.angle && gap.shift <= kLoopGap * whole.shift;
 }
 
+Transform moved_by(const Transform& t, const Transform& from, const Transform& to, double share) {
+  const Quat turn = Quat::Identity().slerp(share, to.rotation * from.rotation.conjugate());
+  return {t.translation + share * (to.translation - from.translation), (turn * t.rotation).normalized(),
+          t.scale + share * (to.scale - from.scale)};
+}
+
+// Lets the last pose meet the first half way; the correction fades out towards the middle of the clip.
+void close_loop(std::span<Pose> poses) {
+  const Pose first = poses.front(), last = poses.back();
+  const double middle = static_cast<double>(poses.size() - 1) / 2;
+  for (std::size_t f = 0; f < poses.size(); ++f) {
+    const double share =
+        0.5 * (1 - static_cast<double>(f) / middle);  // 1/2 at the first frame, -1/2 at the last
+    for (std::size_t j = 0; j < first.size(); ++j)
+      poses[f][j] = moved_by(poses[f][j], first[j], last[j], share);
+  }
+  poses.back() = poses.front();
+}
+
 // Angle per second between neighbouring frames, largest over the joints.
 double fastest_turn_of(std::span<const Pose> poses, double step) {
   double fastest = 0;
@@ -87,7 +107,50 @@ void resample_clips(const Character& input, double rate_hz, std::vector<JointId>
     set.is_cyclic.push_back(is_loop(poses, all));
     set.is_moving.push_back(moved.angle > kStillAngle || moved.shift > kStillShift);
     set.fastest_turn = std::max(set.fastest_turn, fastest_turn_of(poses, frames.step()));
+    if (set.is_cyclic.back()) close_loop(std::span<Pose>(set.poses).subspan(first));
   }
+}
+
+// Mean angular speed of the joints around each frame of a clip, radians per frame.
+std::vector<double> speeds_of(std::span<const Pose> poses) {
+  std::vector<double> speed(poses.size(), 0.0);
+  for (std::size_t f = 1; f < poses.size(); ++f) {
+    for (std::size_t j = 0; j < poses[f].size(); ++j)
+      speed[f] += poses[f - 1][j].rotation.angularDistance(poses[f][j].rotation);
+    speed[f] /= static_cast<double>(poses[f].size());
+  }
+  if (poses.size() > 1) speed[0] = speed[1];
+  return speed;
+}
+
+double mean_of(std::span<const double> values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+// Liveliness of each frame: mean joint speed over half a second, 1 = the liveliest clip's mean.
+void measure_activity(double rate_hz, MotionSet& set) {
+  const auto half = static_cast<std::ptrdiff_t>(std::lround(kActivityHalfWindow * rate_hz));
+  double liveliest = 0;
+  std::vector<double> activity;
+  for (std::size_t c = 0; c + 1 < set.clip_begin.size(); ++c) {
+    const auto first = static_cast<std::size_t>(set.clip_begin[c]);
+    const auto count = static_cast<std::ptrdiff_t>(set.clip_begin[c + 1]) - set.clip_begin[c];
+    const auto speeds =
+        speeds_of(std::span<const Pose>(set.poses).subspan(first, static_cast<std::size_t>(count)));
+    liveliest = std::max(liveliest, mean_of(speeds));
+    const bool wraps = set.is_cyclic[c];
+    for (std::ptrdiff_t f = 0; f < count; ++f) {
+      double sum = 0;
+      for (std::ptrdiff_t k = f - half; k <= f + half; ++k)
+        sum += speeds[static_cast<std::size_t>(wraps ? ((k % count) + count) % count
+                                                     : std::clamp<std::ptrdiff_t>(k, 0, count - 1))];
+      activity.push_back(sum / static_cast<double>(2 * half + 1));
+    }
+  }
+  for (const double a : activity)
+    set.activity.push_back(liveliest > 0 ? static_cast<float>(a / liveliest) : 0.0F);
 }
 
 // Global rotations relative to the bind pose, g * g_bind^-1, as they look once placed. One per input joint.
@@ -133,6 +196,34 @@ std::vector<std::vector<JointId>> joints_by_image(const JointMap& map, std::size
   return sources;
 }
 
+// Per frame of the set, how much it weighs in a mean that counts every clip alike.
+std::vector<double> clip_shares(const MotionSet& set) {
+  std::vector<double> shares;
+  for (std::size_t c = 0; c + 1 < set.clip_begin.size(); ++c) {
+    const std::int32_t count = set.clip_begin[c + 1] - set.clip_begin[c];
+    shares.insert(shares.end(), static_cast<std::size_t>(count), 1.0 / count);
+  }
+  return shares;
+}
+
+// Takes out what the frames have in common: the turn of the whole body (left factor: an input whose clips
+// face another way than its bind pose), then each joint's own mean (right factor: its usual stance).
+void relate_to_means(std::span<const double> shares, std::vector<std::vector<Quat>>& rotations) {
+  MeanRotation body;
+  for (std::size_t f = 0; f < rotations.size(); ++f)
+    for (const Quat& q : rotations[f]) body.add(q, shares[f]);
+  const Quat from_body = body.get().conjugate();
+  for (std::size_t j = 0; j < rotations.front().size(); ++j) {
+    MeanRotation stance;
+    for (std::size_t f = 0; f < rotations.size(); ++f) {
+      rotations[f][j] = from_body * rotations[f][j];
+      stance.add(rotations[f][j], shares[f]);
+    }
+    const Quat from_stance = stance.get().conjugate();
+    for (auto& frame : rotations) frame[j] = frame[j] * from_stance;
+  }
+}
+
 }  // namespace
 
 MotionSet build_motion_set(const Character& input, const Graft& graft, SourceId source, const JointMap& map,
@@ -142,24 +233,22 @@ MotionSet build_motion_set(const Character& input, const Graft& graft, SourceId 
   const std::size_t result_size = graft.skeleton.size();
   MotionSet set;
   resample_clips(input, options.rate_hz, kept_joints(placed), set);
-
-  const std::vector<Quat> bind = global_rotations(input.skeleton, bind_pose(input.skeleton));
-  std::vector<std::vector<Quat>> rotations;
-  MeanRotation mean;
-  for (const Pose& pose : set.poses) {
-    rotations.push_back(rotations_from_bind(input.skeleton, pose, bind, placed.model_from_input.rotation));
-    for (const Quat& q : rotations.back()) mean.add(q, 1);
-  }
-  const auto sources = joints_by_image(map, result_size);
   set.confidence.assign(result_size, 0.0);
   for (const MappedJoint& m : map) set.confidence[m.image.index()] += m.confidence;
   if (set.poses.empty()) return set;
 
-  const Quat from_mean = mean.get().conjugate();
+  measure_activity(options.rate_hz, set);
+  const std::vector<Quat> bind = global_rotations(input.skeleton, bind_pose(input.skeleton));
+  std::vector<std::vector<Quat>> rotations;
+  for (const Pose& pose : set.poses)
+    rotations.push_back(rotations_from_bind(input.skeleton, pose, bind, placed.model_from_input.rotation));
+  relate_to_means(clip_shares(set), rotations);
+
+  const auto sources = joints_by_image(map, result_size);
   set.rotations.reserve(set.poses.size() * result_size * 4);
   for (const auto& frame : rotations)
     for (const auto& joints : sources) {
-      const Quat q = joints.empty() ? Quat::Identity() : from_mean * mean_on_image(frame, map, joints);
+      const Quat q = joints.empty() ? Quat::Identity() : mean_on_image(frame, map, joints);
       for (int k = 0; k < 4; ++k) set.rotations.push_back(static_cast<float>(q.coeffs()[k]));
     }
   return set;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "base/error.h"
@@ -55,13 +56,23 @@ TEST(KeyframePath, JumpsWhenItPays) {
 
 TEST(KeyframePath, DearLandingsAreAvoided) {
   const OneClip clip(6);
-  const DistanceTable d = table_of({{0, 1, 1, 1, 1, 1}, {1, 1, 1, 0, 0, 1}});
-  // Frames 2 and 3 lie far from everything: landing on 3 costs 0.4, on 4 (whose step before is 3) half of
-  // that.
-  const std::vector<float> landing = {0, 0, 0.4F, 0.4F, 0, 0};
+  const DistanceTable d = table_of({{0, 1, 1, 1, 1, 1}, {1, 1, 1, 0, 0.1F, 1}});
+  const std::vector<float> landing = {0, 0, 0, 0.2F, 0, 0};
   const auto path = best_path(
-      d, clip.steps, clip.allowed, [&](std::int32_t) { return std::span<const float>(landing); }, false);
+      d, clip.steps, clip.allowed, [&](std::int32_t) { return std::span<const float>(landing); }, true);
   EXPECT_EQ(path.candidates[1], 4);
+}
+
+// A clip that ends is played, then held: nothing else comes near, and its end may not be entered directly.
+TEST(KeyframePath, StaysAtTheEndOfAClip) {
+  const OneClip clip(14);
+  std::vector<std::vector<float>> rows(30, std::vector<float>(14, 0.2F));
+  for (auto& row : rows) row[13] = 0;
+  const KeyframePath path = best_path(table_of(rows), clip.steps, clip.allowed, clip.no_cost, false);
+  EXPECT_LT(path.candidates.front(), 4);  // ten frames before the end
+  EXPECT_EQ(path.candidates.back(), 13);
+  EXPECT_EQ(std::count(path.steps.begin(), path.steps.end(), PathStep::Jump), 0);
+  EXPECT_GT(std::count(path.candidates.begin(), path.candidates.end(), 13), 15);
 }
 
 // A still driving clip likes keyframe 0 best, yet it may not be held: the part keeps moving at half speed at
