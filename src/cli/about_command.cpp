@@ -4,11 +4,12 @@
 #include "cli/build_id.h"
 #include "cli/commands.h"
 #include "recipe/schema.h"
+#include "report/report_json.h"
 
 namespace skinforge {
 
-ExitCode schema_command(const CommandLine&, Console&) {
-  print_data(recipe_schema());
+ExitCode schema_command(const CommandLine& line, Console&) {
+  print_data(line.schema == "report" ? report_schema() : recipe_schema());
   return ExitCode::Ok;
 }
 

@@ -8,6 +8,8 @@
 #include "cli/commands.h"
 #include "cli/session.h"
 #include "pipeline/publish.h"
+#include "report/report_json.h"
+#include "stages/build.h"
 
 namespace skinforge {
 using nlohmann::json;
@@ -43,18 +45,18 @@ void collect_inputs(const Recipe& recipe, std::vector<fs::path>& files) {
 // What each stage cost when it ran, which may have been in an earlier build. A file of its own, so that the
 // report compares byte for byte.
 void write_timings(const std::vector<StageResult>& stages, const fs::path& folder) {
-  json list = json::array();
-  double seconds = 0;
+  Timings timings;
   for (const StageResult& stage : stages) {
-    list.push_back({{"stage", stage.info.label()},
-                    {"wall_seconds", stage.cost.wall_seconds},
-                    {"cpu_seconds", stage.cost.cpu_seconds},
-                    {"peak_bytes", stage.cost.peak_bytes}});
-    seconds += stage.cost.wall_seconds;
+    const auto peak = static_cast<std::int64_t>(stage.cost.peak_bytes);
+    timings.stages.push_back({stage.info.name, stage.info.instance, status_name(stage.status),
+                              stage.cost.wall_seconds, stage.cost.cpu_seconds, peak});
+    timings.wall += stage.cost.wall_seconds;
+    timings.cpu += stage.cost.cpu_seconds;
+    timings.peak_memory = std::max(timings.peak_memory, peak);
   }
-  const json timings = {{"stages", list}, {"wall_seconds", seconds}};
-  const std::string text = timings.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
-  write_file_atomically(folder / "timings.json", std::as_bytes(std::span(text)));
+  const std::string text = skinforge::to_json(timings);
+  if (!write_file_atomically(folder / "timings.json", std::as_bytes(std::span(text))))
+    throw Error(ExitCode::StageFailed, (folder / "timings.json").string() + ": cannot write this file");
 }
 
 bool has_run(const std::vector<StageResult>& stages) {

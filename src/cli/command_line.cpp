@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/version.h"
+#include "stages/build.h"
 
 namespace skinforge {
 
@@ -243,7 +244,11 @@ class Parser {
     inspect->add_option("FILE", line_.file, "Model: .glb, .gltf, .fbx, .dae, .obj, ...")
         ->required()
         ->type_name("");
-    add_verb(&app_, "schema", "Print the JSON Schema of recipes", Verb::Schema);
+    add_verb(&app_, "schema", "Print the JSON Schema of recipes or of reports", Verb::Schema)
+        ->add_option("OF", line_.schema, "recipe or report")
+        ->check(CLI::IsMember({"recipe", "report"}).description(""))
+        ->default_str("recipe")
+        ->type_name("");
     add_verb(&app_, "version", "Print the version", Verb::Version);
     add_verb(&app_, "help", "Print this, or the help of one command", Verb::Help)
         ->add_option("COMMAND", topic_, "A command")

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "cli/console.h"
-#include "stages/build.h"
 
 namespace skinforge {
+
+enum class ReportLevel : std::uint8_t;  // stages/build.h
 
 enum class Verb {
   Build,
@@ -35,7 +37,8 @@ struct CommandLine {
   std::string out;                   ///< empty: out/<name>
   std::string cache;                 ///< folder, settled: --cache, $SKINFORGE_CACHE or .skinforge/cache
   std::size_t jobs = 1;
-  ReportLevel report = ReportLevel::Full;
+  ReportLevel report{};           ///< as the parser sets it: Full unless asked otherwise
+  std::string schema = "recipe";  ///< or "report"
   bool keep_going = false;
   std::string help;  ///< text for Verb::Help
 };

@@ -12,11 +12,10 @@ ExitCode inspect_command(const CommandLine& line, Console&) {
   const RawScene scene = read_scene(files);
   IssueSink issues;
   const Character character = build_character(scene, line.file, issues);
-  Inspection inspection = inspect(character);
+  Inspection inspection = inspect(character, scene);
   inspection.file = line.file;
   inspection.digest = files.front().digest.hex();
   inspection.bytes = files.front().bytes.size();
-  inspection.metres_per_unit = scene.metres_from_file.scale;
   inspection.issues = issues.issues();
   if (!line.json) {
     print_data(inspection_text(inspection, character));

@@ -41,6 +41,29 @@ void count_weights(const Character& character, Inspection& result) {
   result.joints_without_weights = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), false));
 }
 
+// Where a node stands in the file's default pose, metres.
+Vec3 default_position(const RawScene& scene, const RawScene::Node& node) {
+  Vec3 position = Vec3::Zero();
+  for (const RawScene::Node* at = &node;;) {
+    position = (at->matrix ? *at->matrix : at->local.matrix()) * position;
+    if (at->parent < 0) return scene.metres_from_file * position;
+    at = &scene.nodes[static_cast<std::size_t>(at->parent)];
+  }
+}
+
+void compare_poses(const Character& character, const RawScene& scene, Inspection& result) {
+  const std::vector<Affine3> model_from_joint = character.skeleton.model_from_joint();
+  for (const RawScene::Node& node : scene.nodes) {
+    const auto joint = character.skeleton.find(node.name);
+    if (!joint) continue;
+    const double distance =
+        (default_position(scene, node) - model_from_joint[joint->index()].translation()).norm();
+    if (distance <= result.default_pose_distance) continue;
+    result.default_pose_distance = distance;
+    result.default_pose_joint = node.name;
+  }
+}
+
 std::size_t key_count(const Clip& clip) {
   std::size_t keys = 0;
   for (const JointTracks& tracks : clip.joints)
@@ -133,8 +156,10 @@ json names_json(const Items& items) {
 }
 }  // namespace
 
-Inspection inspect(const Character& character) {
+Inspection inspect(const Character& character, const RawScene& scene) {
   Inspection result;
+  result.metres_per_unit = scene.metres_from_file.scale;
+  compare_poses(character, scene, result);
   count_faces(character.mesh, result);
   count_edges(character.mesh, result);
   count_weights(character, result);
@@ -153,6 +178,10 @@ std::string inspection_text(const Inspection& i, const Character& character) {
   text += fmt::format(
       "size       {:.4g} x {:.4g} x {:.4g} m, diagonal {:.4g} m; 1 unit of the file is {:.6g} m\n", size.x(),
       size.y(), size.z(), size.norm(), i.metres_per_unit);
+  if (!i.default_pose_joint.empty())
+    text +=
+        fmt::format("pose       the file's default pose is up to {:.3g} m from the bind pose (joint {})\n",
+                    i.default_pose_distance, printable(i.default_pose_joint));
   text += mesh_text(i, character) + weights_text(i) + joints_text(character.skeleton) +
           clips_text(character.clips);
   text += fmt::format("issues     {}\n", i.issues.size());

@@ -21,11 +21,14 @@ struct Inspection {
   std::size_t components = 0, open_edges = 0, edges_of_many_faces = 0;
   std::vector<std::size_t> influences;  ///< [n]: vertices with n influences
   std::size_t joints_without_weights = 0;
+  double default_pose_distance =
+      0;  ///< farthest that a joint of the file's default pose is from its bind position
+  std::string default_pose_joint;  ///< that joint
   std::vector<Issue> issues;
 };
 
-/// Counts everything; empty meshes give zeros.
-Inspection inspect(const Character& character);
+/// Counts everything; empty meshes give zeros. `scene`: what the character was built from.
+Inspection inspect(const Character& character, const RawScene& scene);
 
 /// For people: a few headed blocks, the joint tree indented.
 std::string inspection_text(const Inspection& inspection, const Character& character);

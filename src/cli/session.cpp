@@ -21,6 +21,7 @@ std::string session_name(const std::string& recipe_path) {
   const fs::path path = fs::weakly_canonical(recipe_path, error);
   return error ? recipe_path : path.string();
 }
+}  // namespace
 
 const char* status_name(StageStatus status) {
   switch (status) {
@@ -35,7 +36,6 @@ const char* status_name(StageStatus status) {
   }
   return "";
 }
-}  // namespace
 
 Session::Session(const CommandLine& line, const std::string& recipe_path, Console& console)
     : line_(line),

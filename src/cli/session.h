@@ -47,6 +47,9 @@ class Session {
   Engine engine_;
 };
 
+/// "hit", "ran", "failed", "skipped".
+const char* status_name(StageStatus status);
+
 /// Exit status of a session whose first failure is `failure`.
 ExitCode exit_code(const std::optional<StageResult>& failure);
 

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/session.h"
+#include "stages/build.h"
 
 namespace skinforge {
 using nlohmann::json;

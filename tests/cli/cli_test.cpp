@@ -57,6 +57,12 @@ TEST_F(Cli, SchemaIsTheFileOfTheRepository) {
   EXPECT_EQ(result.out, read_text(testing::repository_file("schemas/recipe.schema.json")));
 }
 
+TEST_F(Cli, SchemaOfReports) {
+  EXPECT_EQ(json::parse(call({"schema", "report"}).out).at("$schema"),
+            "http://json-schema.org/draft-07/schema#");
+  EXPECT_EQ(call({"schema", "nothing"}).status, 2);
+}
+
 TEST_F(Cli, HelpNamesEveryVerb) {
   const ProgramResult result = call({"help"});
   EXPECT_EQ(result.status, 0);
