@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "io/import.h"
+
+namespace skinforge {
+
+/// A file of any format that Assimp 5.2.5 reads (FBX, COLLADA, OBJ, OFF, PLY, STL, BLEND, ...; not glTF,
+/// which it reads wrongly) as it is. Meshes that Assimp split by material are one mesh again, one per node;
+/// polygons stay polygons; key times are seconds; UVs point down as in glTF. An FBX keeps its units and axes,
+/// and `metres_from_file` says how to leave them; the geometric transform of an FBX node is moved into its
+/// vertices. Images come from inside the file or from `files`; others are left out with an issue.
+/// Memory-unsafe on hostile input: call through `sandbox.h`. Throws Error (BadInput), one line that starts
+/// with the path.
+RawScene read_with_assimp(const std::vector<InputFile>& files);
+
+}  // namespace skinforge
