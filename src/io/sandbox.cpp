@@ -1,0 +1,284 @@
+#include "io/sandbox.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <malloc.h>
+#include <pthread.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/assimp_reader.h"
+#include "io/raw_scene_check.h"
+
+extern char** environ;
+
+namespace skinforge {
+namespace {
+
+constexpr std::size_t kMaxAnswer = std::size_t{4} << 30;  // far above what fits the child's memory
+constexpr const char* kMemory = "out of memory";
+
+std::string& worker_path() {
+  static std::string path = "/proc/self/exe";
+  return path;
+}
+
+/// What the child is to do. No `fields` of `InputFile`: only here it crosses a process.
+struct Task {
+  SandboxLimits limits;
+  std::vector<InputFile> files;
+
+  template <class Archive>
+  friend void fields(Archive& a, Task& t) {
+    a(t.limits.address_space, t.limits.stack, t.limits.cpu_seconds, t.limits.wall_seconds);
+    std::uint64_t count = t.files.size();
+    a(count);
+    t.files.resize(count);
+    for (InputFile& file : t.files) a(file.path, file.bytes);
+  }
+};
+
+/// Either an error or a scene.
+struct Answer {
+  std::string error;
+  RawScene scene;
+
+  template <class Archive>
+  friend void fields(Archive& a, Answer& n) {
+    a(n.error, n.scene);
+  }
+};
+
+/// A descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  ~Descriptor() { reset(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+  void reset(int number = -1) {
+    if (number_ >= 0) ::close(number_);
+    number_ = number;
+  }
+
+ private:
+  int number_;
+};
+
+[[noreturn]] void system_failed(const char* what) {
+  throw Error(ExitCode::StageFailed, fmt::format("{}: {}", what, std::strerror(errno)));
+}
+
+void write_all(int descriptor, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t done = ::write(descriptor, bytes.data(), bytes.size());
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) system_failed("cannot write to the importer");
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
+  }
+}
+
+Bytes read_all(int descriptor) {
+  constexpr std::size_t kStep = std::size_t{1} << 20;
+  Bytes bytes;
+  std::size_t filled = 0;
+  for (;;) {
+    bytes.resize(std::max(bytes.size(), filled + kStep));
+    const ssize_t got = ::read(descriptor, bytes.data() + filled, bytes.size() - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) system_failed("cannot read from the importer");
+    if (got == 0) break;
+    filled += static_cast<std::size_t>(got);
+    if (filled > kMaxAnswer) break;
+    if (filled == bytes.size()) bytes.resize(2 * filled);
+  }
+  bytes.resize(filled);
+  return bytes;
+}
+
+// ---------------------------------------------------------------- the child
+
+void limit(int resource, std::size_t value) {
+  rlimit both{};
+  ::getrlimit(static_cast<__rlimit_resource>(resource), &both);
+  both.rlim_cur = std::min<rlim_t>(value, both.rlim_max);
+  ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
+}
+
+/// Bytes of address space that the process has now: libraries, above all.
+std::size_t mapped_now() {
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  Descriptor file(::open("/proc/self/statm", O_RDONLY | O_CLOEXEC));
+  char text[64] = {};
+  if (file.number() < 0 || ::read(file.number(), text, sizeof text - 1) <= 0) return 0;
+  return static_cast<std::size_t>(std::strtoull(text, nullptr, 10)) * page;
+}
+
+/// From here on the process can open no file and no socket.
+void enter_cell(const SandboxLimits& limits) {
+  ::mallopt(M_ARENA_MAX, 1);  // a second arena would reserve 64 MB of the address space
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, static_cast<std::size_t>(limits.cpu_seconds));
+  limit(RLIMIT_AS, mapped_now() + limits.address_space);
+  limit(RLIMIT_NOFILE, 3);
+  ::alarm(static_cast<unsigned>(limits.wall_seconds));
+}
+
+Bytes answer_to(const Task& task) {
+  Answer answer;
+  try {
+    answer.scene = read_with_assimp(task.files);
+    return to_bytes(answer);
+  } catch (const Error& error) {
+    answer.error = error.what();
+  } catch (const std::bad_alloc&) {
+    answer.error = kMemory;
+  } catch (const std::exception& error) {
+    answer.error = printable(task.files.front().path) + ": " + printable(error.what());
+  }
+  if (answer.error.find("bad_alloc") != std::string::npos) answer.error = kMemory;
+  answer.scene = {};
+  return to_bytes(answer);
+}
+
+struct Job {
+  const Task* task = nullptr;
+  Bytes answer;
+};
+
+void* run_job(void* data) {
+  auto* job = static_cast<Job*>(data);
+  job->answer = answer_to(*job->task);
+  return nullptr;
+}
+
+/// Runs on a stack of its own: that of the process could not grow so far any more.
+Bytes answer_with_stack(const Task& task) {
+  Job job{&task, {}};
+  pthread_attr_t attributes;
+  pthread_t thread;
+  ::pthread_attr_init(&attributes);
+  ::pthread_attr_setstacksize(&attributes, task.limits.stack);
+  if (::pthread_create(&thread, &attributes, run_job, &job) != 0)
+    job.answer = to_bytes(Answer{kMemory, {}});
+  else
+    ::pthread_join(thread, nullptr);
+  ::pthread_attr_destroy(&attributes);
+  return std::move(job.answer);
+}
+
+// ---------------------------------------------------------------- the parent
+
+/// The task as a file in memory, read position at its start.
+void store(const Task& task, Descriptor& target) {
+  target.reset(::memfd_create("skinforge-import", MFD_CLOEXEC));
+  if (target.number() < 0) system_failed("cannot hand the file to the importer");
+  write_all(target.number(), to_bytes(task));
+  if (::lseek(target.number(), 0, SEEK_SET) != 0) system_failed("cannot hand the file to the importer");
+}
+
+pid_t start_worker(const std::string& path, int task, int answer) {
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, task, STDIN_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, answer, STDOUT_FILENO);
+  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  ::posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+  std::string program = "skinforge", flag = "--import-worker", file = path;
+  char* arguments[] = {program.data(), flag.data(), file.data(), nullptr};
+  pid_t child = 0;
+  const int failure = ::posix_spawn(&child, worker_path().c_str(), &actions, nullptr, arguments, environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (failure != 0) {
+    errno = failure;
+    system_failed("cannot start the importer");
+  }
+  return child;
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) system_failed("cannot wait for the importer");
+  return status;
+}
+
+/// How the child ended, unless well.
+void check_end(int status, const SandboxLimits& limits) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  std::string how = fmt::format("importer crashed (signal {})", number);
+  if (number == 0) how = fmt::format("importer ended with status {}", WEXITSTATUS(status));
+  if (number == SIGXCPU || number == SIGKILL)
+    how = fmt::format("importer took more than {} s", limits.cpu_seconds);
+  if (number == SIGALRM) how = fmt::format("importer did not answer for {} s", limits.wall_seconds);
+  throw Error(ExitCode::BadInput, how);
+}
+
+Answer parse_answer(const Bytes& bytes) {
+  try {
+    return from_bytes<Answer>(bytes);
+  } catch (const Error&) {
+    throw Error(ExitCode::BadInput, "importer gave a broken answer");
+  }
+}
+
+Answer ask_worker(const std::vector<InputFile>& files, const SandboxLimits& limits) {
+  Descriptor task, answer_in, answer_out;
+  store({limits, files}, task);
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) system_failed("cannot listen to the importer");
+  answer_in.reset(ends[0]);
+  answer_out.reset(ends[1]);
+  const pid_t child = start_worker(files.front().path, task.number(), answer_out.number());
+  answer_out.reset();
+  task.reset();
+  const Bytes bytes = read_all(answer_in.number());
+  answer_in.reset();
+  check_end(wait_for(child), limits);
+  return parse_answer(bytes);
+}
+
+}  // namespace
+
+RawScene read_in_child(const std::vector<InputFile>& files, const SandboxLimits& limits) {
+  const std::string place = printable(files.front().path);
+  Answer answer = with_context(place, [&] { return ask_worker(files, limits); });
+  if (answer.error == kMemory)
+    throw Error(ExitCode::BadInput, fmt::format("{}: importer needs more than {} MB of memory", place,
+                                                limits.address_space >> 20));
+  if (!answer.error.empty()) throw Error(ExitCode::BadInput, printable(answer.error));
+  with_context(place, [&] { check_raw_scene(answer.scene); });
+  return std::move(answer.scene);
+}
+
+void set_import_worker(std::string executable) {
+  worker_path() = std::move(executable);
+}
+
+int import_worker_main(int, char**) {
+  try {
+    const auto task = from_bytes<Task>(read_all(STDIN_FILENO));
+    if (task.files.empty()) return 1;
+    enter_cell(task.limits);
+    const Bytes answer = answer_with_stack(task);
+    write_all(STDOUT_FILENO, answer);
+    return 0;
+  } catch (const std::exception&) {
+    return 1;
+  }
+}
+
+}  // namespace skinforge

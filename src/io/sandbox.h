@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/import.h"
+
+/// Parsing of untrusted files in a child process: a crash, endless loop or memory bomb of a foreign parser
+/// ends the child, and the parent reports one line.
+namespace skinforge {
+
+/// What the child may use.
+struct SandboxLimits {
+  std::size_t address_space = std::size_t{2}
+                              << 30;           ///< bytes, beside what the program itself maps at its start
+  std::size_t stack = std::size_t{512} << 20;  ///< bytes
+  int cpu_seconds = 10;
+  int wall_seconds = 120;  ///< against a child that sleeps
+};
+
+/// Reads `files` with Assimp (assimp_reader.h) in a new process. The child gets the bytes, can open neither
+/// files nor sockets, writes no core, and hands the scene back through a pipe; it is checked
+/// (`check_raw_scene`) before it is returned. Throws Error (BadInput), one line: the message of the reader,
+/// "FILE: importer crashed (signal 11)", "... took more than 10 s", "... needs more than ... of memory".
+RawScene read_in_child(const std::vector<InputFile>& files, const SandboxLimits& limits = {});
+
+/// The program started as worker; it must hand `--import-worker` to `import_worker_main`. Default: the
+/// running program. Not for use while imports run.
+void set_import_worker(std::string executable);
+
+/// The worker: `PROGRAM --import-worker PATH`, files and limits on stdin, the answer on stdout; PATH is only
+/// for the eyes of who lists processes. Returns the exit status.
+int import_worker_main(int argc, char** argv);
+
+}  // namespace skinforge
