@@ -1,12 +1,17 @@
 #!/usr/bin/env bash
-# Installs the packages of scripts/packages.txt that are missing (Debian 12, as root or with sudo); says and
-# does nothing when all are there.
+# Installs what is missing (Debian 12, as root or with sudo); says and does nothing when all is there.
 #   scripts/setup.sh [--node]
-# --node: nodejs and npm too, unless some node and npm are installed already.
+# Without options: the packages of scripts/packages.txt. --node: what only the tests need too, nodejs and npm
+# (unless some node and npm are installed) and from npm the Khronos validator and a second FBX reader, in
+# build/node. Those are optional: without them tests skip.
 set -euo pipefail
-scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+node_folder=$repository/build/node
+node_packages=(gltf-validator@2.0.0-dev.3.10 fbx2gltf@0.9.7)
 
-wanted() { sed 's/#.*//' "$scripts/packages.txt" | tr -s '[:space:]' '\n' | sed '/^$/d'; }
+warn() { printf '\n********** setup: %s **********\n\n' "$*" >&2; }
+
+wanted() { sed 's/#.*//' "$repository/scripts/packages.txt" | tr -s '[:space:]' '\n' | sed '/^$/d'; }
 
 # Wanted packages that dpkg does not list as installed.
 missing() {
@@ -19,28 +24,48 @@ as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"
   elif command -v sudo >/dev/null; then sudo "$@"
   else
-    echo "setup: packages are missing and there is neither root nor sudo; as root: $*" >&2
-    exit 1
+    echo "setup: there is neither root nor sudo; as root: $*" >&2
+    return 1
   fi
 }
 
 apt_get() {
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get --quiet=2 --option Acquire::Retries=3 \
-    --option Dpkg::Use-Pty=0 "$@" >&2
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get --quiet=2 --option Acquire::Retries=3 "$@" >/dev/null
 }
 
-if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
-  echo "setup: no apt here; the packages of scripts/packages.txt must be there already" >&2
-  exit 0
-fi
+install() {
+  [ $# -gt 0 ] || return 0
+  if ! command -v apt-get >/dev/null; then
+    echo "setup: no apt here, install these yourself: $*" >&2
+    return 1
+  fi
+  echo "setup: installing $*" >&2
+  apt_get update && apt_get install --yes --no-install-recommends "$@"
+}
 
-mapfile -t packages < <(missing)
-if [ "${1:-}" = --node ]; then
+install_node() {
+  local packages=()
   command -v node >/dev/null || packages+=(nodejs)
   command -v npm >/dev/null || packages+=(npm)
+  install "${packages[@]}"
+}
+
+install_node_packages() {
+  local fbx2gltf=$node_folder/node_modules/fbx2gltf/bin/Linux/FBX2glTF
+  [ -x "$fbx2gltf" ] && [ -d "$node_folder/node_modules/gltf-validator" ] && return 0
+  mkdir -p "$node_folder"
+  timeout 300 npm install --prefix "$node_folder" --no-save --no-audit --no-fund --loglevel=error \
+    "${node_packages[@]}" >&2 && chmod +x "$fbx2gltf" # it comes without
+}
+
+if command -v dpkg-query >/dev/null; then
+  mapfile -t packages < <(missing)
+  install "${packages[@]}"
+else
+  warn "no dpkg here: the packages of scripts/packages.txt are taken to be there"
 fi
-if [ "${#packages[@]}" -gt 0 ]; then
-  echo "setup: installing ${packages[*]}" >&2
-  apt_get update
-  apt_get install --yes --no-install-recommends "${packages[@]}"
+if [ "${1:-}" = --node ]; then
+  if ! install_node || ! install_node_packages; then
+    warn "no npm packages: tests against gltf-validator and fbx2gltf are skipped"
+  fi
 fi
