@@ -56,6 +56,12 @@ int shadow_texels(const DrawOptions& options) {
   return std::clamp(static_cast<int>(wanted) / 4 * 4, 128, 1024);
 }
 
+void set_pixel(Raster& raster, int x, int y, const Vec3f& color) {
+  auto* pixel = raster.rgba.data() + 4 * (static_cast<std::size_t>(y) * raster.width + x);
+  for (int k = 0; k < 3; ++k) pixel[k] = srgb_from_linear(color[k]);
+  pixel[3] = 255;
+}
+
 /// Shadows found for 2 x 2 pixels, shared by the triangles that meet there.
 struct SharedExposure {
   bool is_known = false;
@@ -77,6 +83,7 @@ class Painter {
       : subject_(subject),
         options_(options),
         projection_(view, options.width, options.height),
+        eye_(view.eye.cast<float>()),
         positions_(to_float(posture.positions.empty() ? std::span<const Vec3>(subject.mesh().positions)
                                                       : posture.positions)),
         normals_(corner_normals(subject, posture)),
@@ -92,6 +99,7 @@ class Painter {
 
  private:
   void paint_tile(int x0, int y0, std::span<const std::int32_t> triangles, Raster& raster) const;
+  void paint_backdrop(int x0, int y0, Raster& raster) const;
   void draw(VisibilityTile& tile, std::int32_t viewed) const;
   Vec3f pixel_color(const std::array<std::int32_t, kSamples>& owners, int x, int y,
                     SharedExposure& shared) const;
@@ -105,6 +113,7 @@ class Painter {
   const Subject& subject_;
   const DrawOptions& options_;
   Projection projection_;
+  Vec3f eye_;
   std::vector<Vec3f> positions_, normals_;
   std::vector<bool> highlighted_;
   std::vector<ViewedTriangle> viewed_;
@@ -120,7 +129,10 @@ Raster Painter::paint() const {
   const auto tiles = triangles_by_tile(viewed_, across, down);
   parallel_for(tiles.size(), [&](std::size_t i) {
     const int x = static_cast<int>(i) % across, y = static_cast<int>(i) / across;
-    paint_tile(x * kEdge, y * kEdge, tiles[i], raster);
+    if (tiles[i].empty())
+      paint_backdrop(x * kEdge, y * kEdge, raster);
+    else
+      paint_tile(x * kEdge, y * kEdge, tiles[i], raster);
   });
   return raster;
 }
@@ -131,14 +143,16 @@ void Painter::paint_tile(int x0, int y0, std::span<const std::int32_t> triangles
   std::array<SharedExposure, VisibilityTile::kEdge / 2> shared;
   for (int y = y0; y < std::min(y0 + VisibilityTile::kEdge, raster.height); ++y) {
     if (y % 2 == 0) shared.fill({});
-    for (int x = x0; x < std::min(x0 + VisibilityTile::kEdge, raster.width); ++x) {
-      const Vec3f color =
-          pixel_color(tile.owners(x, y), x, y, shared[static_cast<std::size_t>((x - x0) / 2)]);
-      auto* pixel = raster.rgba.data() + 4 * (static_cast<std::size_t>(y) * raster.width + x);
-      for (int k = 0; k < 3; ++k) pixel[k] = srgb_from_linear(color[k]);
-      pixel[3] = 255;
-    }
+    for (int x = x0; x < std::min(x0 + VisibilityTile::kEdge, raster.width); ++x)
+      set_pixel(raster, x, y,
+                pixel_color(tile.owners(x, y), x, y, shared[static_cast<std::size_t>((x - x0) / 2)]));
   }
+}
+
+void Painter::paint_backdrop(int x0, int y0, Raster& raster) const {
+  for (int y = y0; y < std::min(y0 + VisibilityTile::kEdge, raster.height); ++y)
+    for (int x = x0; x < std::min(x0 + VisibilityTile::kEdge, raster.width); ++x)
+      set_pixel(raster, x, y, backdrop(x + 0.5, y + 0.5));
 }
 
 void Painter::draw(VisibilityTile& tile, std::int32_t index) const {
@@ -183,7 +197,7 @@ Vec3f Painter::fragment_color(const Fragment& fragment, SharedExposure& shared) 
   const FaceId face = subject_.face_of(at.triangle);
   SurfacePoint point;
   point.position = at.weights.mix<Vec3f>(positions_, subject_.triangles()[at.triangle]);
-  point.to_eye = (projection_.eye.cast<float>() - point.position).normalized();
+  point.to_eye = (eye_ - point.position).normalized();
   point.normal = normal_at(viewed, at, point.to_eye);
 
   Finish finish = finish_at(subject_, options_, at, !highlighted_.empty() && highlighted_[face.index()]);
@@ -224,7 +238,7 @@ float Painter::wire_at(const ViewedTriangle& viewed, double x, double y) const {
 }
 
 const Exposure& Painter::exposure(const SurfacePoint& point, SharedExposure& shared) const {
-  const float pixel = pixel_slope_ * (projection_.eye.cast<float>() - point.position).norm();
+  const float pixel = pixel_slope_ * (eye_ - point.position).norm();
   const bool can_share = shared.is_known &&
                          (point.position - shared.position).norm() < kSharedPixels * pixel &&
                          point.normal.dot(shared.normal) > kSharedCosine;
@@ -237,7 +251,7 @@ Vec3f Painter::backdrop(double x, double y) const {
   const auto down = static_cast<float>(y / options_.height);
   const Vec3f color = kBackdropTop + down * (kBackdropBottom - kBackdropTop);
   if (!options_.floor) return color;
-  return lighting_.floor_light(projection_.eye.cast<float>(), projection_.ray(x, y).cast<float>()) * color;
+  return lighting_.floor_light(eye_, projection_.ray(x, y).cast<float>()) * color;
 }
 
 }  // namespace

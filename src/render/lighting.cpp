@@ -44,6 +44,13 @@ float smooth_step(float low, float high, float x) {
   return t * t * (3 - 2 * t);
 }
 
+// Blinn-Phong lobe cosine^power; the power doubles from 4 (dull) to 128 (polished).
+float highlight(float cosine, float gloss) {
+  const int doublings = 2 + static_cast<int>(5 * gloss + 0.5F);
+  for (int i = 0; i < doublings; ++i) cosine *= cosine;
+  return cosine;
+}
+
 // Box filter of a square map along x, then along y; the border repeats.
 void blur(std::vector<float>& map, int size, int reach) {
   std::vector<float> line(static_cast<std::size_t>(size));
@@ -126,8 +133,7 @@ Vec3f Lighting::shade(const SurfacePoint& point, const Finish& finish, const Exp
   const float edge = (1 - facing) * (1 - facing) * (1 - facing);
   const Vec3f half = (key_direction_ + point.to_eye).normalized();
   const float gloss = 1 - finish.roughness;
-  const float power = 4 + 120 * gloss * gloss;
-  const float glint = exposure.key * std::pow(std::max(0.0F, n.dot(half)), power) * (0.25F + 2 * gloss);
+  const float glint = exposure.key * highlight(std::max(0.0F, n.dot(half)), gloss) * (0.25F + 2 * gloss);
   const Vec3f reflectance = Vec3f::Constant(0.04F * (1 - finish.metallic)) + finish.metallic * finish.albedo;
   const float mirror_up = 0.5F + 0.5F * (2 * n.dot(point.to_eye) * n.y() - point.to_eye.y());
   const Vec3f mirrored = exposure.sky * (mirror_up * kSkyColor + (1 - mirror_up) * kGroundColor);
