@@ -26,6 +26,12 @@ template <class T>
 inline constexpr bool is_flat = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 template <class Tag>
 inline constexpr bool is_flat<Id<Tag>> = true;
+template <class T, std::size_t N>
+inline constexpr bool is_flat<std::array<T, N>> = is_flat<T>;
+template <int R>
+inline constexpr bool is_flat<Eigen::Matrix<double, R, 1>> = R > 0;  // coefficients only, no padding
+template <>
+inline constexpr bool is_flat<std::byte> = true;
 template <class T>
 struct EigenSize : std::integral_constant<int, 0> {};
 template <int R>
@@ -88,7 +94,7 @@ class ArchiveWriter {
   template <class T>
   void write(const std::vector<T>& items) {
     count(items.size());
-    if constexpr (archive_detail::is_flat<T> || std::is_same_v<T, std::byte>) {
+    if constexpr (archive_detail::is_flat<T>) {
       raw(items.data(), items.size() * sizeof(T));
     } else {
       for (const T& item : items) write(item);
@@ -172,7 +178,7 @@ class ArchiveReader {
   template <class T>
   void read(std::vector<T>& items) {
     items.resize(count());
-    if constexpr (archive_detail::is_flat<T> || std::is_same_v<T, std::byte>) {
+    if constexpr (archive_detail::is_flat<T>) {
       raw(items.data(), items.size() * sizeof(T));
     } else {
       for (T& item : items) read(item);

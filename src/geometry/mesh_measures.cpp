@@ -12,13 +12,6 @@ namespace {
 
 constexpr double kDegenerateArea = 1e-6;  // junction.md c, of the squared length
 
-double percentile(const std::vector<double>& sorted, double part) {
-  const double place = part * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
-}
-
 bool is_manifold(const PolygonMesh& mesh, const Edge& edge) {
   if (edge.half_edges.size() > 2) return false;
   return edge.half_edges.size() < 2 || mesh.corners[edge.half_edges[0]] != mesh.corners[edge.half_edges[1]];
@@ -84,22 +77,6 @@ class Fans {
 };
 
 }  // namespace
-
-Distribution distribution_of(std::vector<double> values) {
-  Distribution d;
-  d.count = values.size();
-  if (values.empty()) return d;
-  std::sort(values.begin(), values.end());
-  d.min = values.front();
-  d.max = values.back();
-  d.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  d.p05 = percentile(values, 0.05);
-  d.p25 = percentile(values, 0.25);
-  d.p50 = percentile(values, 0.50);
-  d.p75 = percentile(values, 0.75);
-  d.p95 = percentile(values, 0.95);
-  return d;
-}
 
 MeshTopology measure_topology(const PolygonMesh& mesh) {
   const EdgeList edges = build_edges(mesh);

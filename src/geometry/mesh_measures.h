@@ -7,15 +7,6 @@
 
 namespace skinforge {
 
-/// Least, mean and percentiles of a list of numbers; all 0 for an empty one.
-struct Distribution {
-  std::size_t count = 0;
-  double min = 0, mean = 0, p05 = 0, p25 = 0, p50 = 0, p75 = 0, p95 = 0, max = 0;
-};
-
-/// Percentiles by linear interpolation between the sorted values (the i-th of n stands at i / (n - 1)).
-Distribution distribution_of(std::vector<double> values);
-
 /// Counts of what a mesh is made of (junction.md c). Edges are undirected, by vertex pair.
 struct MeshTopology {
   std::size_t vertices = 0;  ///< used by some face

@@ -88,6 +88,7 @@ BoxTree::Lanes entries(const BoxTree::Node& node, const Ray& ray) {
 struct TriangleBvh::Impl {
   BoxTree tree;
   std::vector<TriangleCorners> corners;      // in the order of the tree's leaves
+  std::vector<std::int32_t> place_of;        // of each triangle given, in that order
   std::vector<std::uint8_t> degenerate;      // likewise: 1 for a triangle without a plane
   std::vector<WindingExpansion> expansions;  // one per node
 
@@ -104,6 +105,9 @@ struct TriangleBvh::Impl {
     tree = build_box_tree(boxes, kLeafSize);
     corners.reserve(given.size());
     for (const std::int32_t i : tree.order) corners.push_back(given[i]);
+    place_of.resize(given.size());
+    for (std::size_t place = 0; place < given.size(); ++place)
+      place_of[tree.order[place]] = static_cast<std::int32_t>(place);
     for (const TriangleCorners& t : corners) degenerate.push_back(is_degenerate(t) ? 1 : 0);
     expand();
   }
@@ -170,10 +174,43 @@ struct TriangleBvh::Impl {
   }
 
   double exact_solid_angle(BoxTree::Child leaf, const Vec3& query) const {
+    const std::span<const TriangleCorners> all(corners.data() + leaf.first,
+                                               static_cast<std::size_t>(leaf.count));
+    const auto flags = degenerate.begin() + leaf.first;
+    if (std::none_of(flags, flags + leaf.count, [](std::uint8_t flag) { return flag != 0; }))
+      return solid_angle(query, all);
     double sum = 0;
-    for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
-      if (!degenerate[i]) sum += solid_angle(query, corners[i]);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!flags[static_cast<std::ptrdiff_t>(i)]) sum += solid_angle(query, all.subspan(i, 1));
     return sum;
+  }
+
+  // The nearest of `best` so far and all triangles no farther than sqrt(limit2).
+  ClosestPoint closest(const Vec3& query, double limit2, ClosestPoint best) const {
+    const auto visit_leaf = [&](BoxTree::Child leaf, double least2) {
+      for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
+        least2 = improve(best, query, i, least2);
+      return least2;
+    };
+    nearest_first(
+        limit2, [&](const BoxTree::Node& node) { return BoxTree::distances2(node, query); }, visit_leaf);
+    if (best.triangle >= 0) best.distance = (query - best.point).norm();
+    return best;
+  }
+
+  // Takes the triangle at `place` if it is nearer, or as near and of lower index; returns the new least
+  // distance squared.
+  double improve(ClosestPoint& best, const Vec3& query, std::int32_t place, double least2) const {
+    const std::int32_t triangle = tree.order[place];
+    const Vec3 barycentric = closest_barycentric(place, query);
+    const Vec3 point = interpolate(corners[place], barycentric);
+    const double distance2 = (query - point).squaredNorm();
+    const bool is_lower = best.triangle < 0 || triangle < best.triangle;
+    if (distance2 > least2 || (distance2 == least2 && !is_lower)) return least2;
+    best.triangle = triangle;
+    best.barycentric = barycentric;
+    best.point = point;
+    return distance2;
   }
 };
 
@@ -185,28 +222,13 @@ TriangleBvh::TriangleBvh(TriangleBvh&&) noexcept = default;
 TriangleBvh& TriangleBvh::operator=(TriangleBvh&&) noexcept = default;
 
 ClosestPoint TriangleBvh::closest(const Vec3& query, double limit) const {
+  return impl_->closest(query, std::min(limit * limit, kHuge), {});
+}
+
+ClosestPoint TriangleBvh::closest_from_hint(const Vec3& query, std::int32_t hint) const {
   ClosestPoint best;
-  const auto visit_leaf = [&](BoxTree::Child leaf, double limit2) {
-    for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-      const std::int32_t triangle = impl_->tree.order[i];
-      const Vec3 barycentric = impl_->closest_barycentric(i, query);
-      const Vec3 point = interpolate(impl_->corners[i], barycentric);
-      const double distance2 = (query - point).squaredNorm();
-      const bool nearer = distance2 < limit2 || (distance2 == limit2 && best.triangle < 0);
-      const bool tie = distance2 == limit2 && triangle < best.triangle;
-      if (!nearer && !tie) continue;
-      limit2 = distance2;
-      best.triangle = triangle;
-      best.barycentric = barycentric;
-      best.point = point;
-    }
-    return limit2;
-  };
-  impl_->nearest_first(
-      std::min(limit * limit, kHuge),
-      [&](const BoxTree::Node& node) { return BoxTree::distances2(node, query); }, visit_leaf);
-  if (best.triangle >= 0) best.distance = (query - best.point).norm();
-  return best;
+  const double limit2 = impl_->improve(best, query, impl_->place_of[hint], kHuge);
+  return impl_->closest(query, limit2, best);
 }
 
 double TriangleBvh::winding_number(const Vec3& query) const {

@@ -38,6 +38,10 @@ class TriangleBvh {
   /// Nearest point within `limit` (metres). Ties go to the lowest triangle index.
   ClosestPoint closest(const Vec3& query, double limit = 1e300) const;
 
+  /// The same without a limit, faster where `hint` (a valid triangle) is near the answer. The hint does not
+  /// change it.
+  ClosestPoint closest_from_hint(const Vec3& query, std::int32_t hint) const;
+
   /// Generalised winding number (Jacobson 2013) by the hierarchy of Barill 2018 (dipole expansion of order 2,
   /// accuracy parameter 2): about 1 inside a closed outward-oriented surface, 0 outside, in between near
   /// holes.

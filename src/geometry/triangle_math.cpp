@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace skinforge {
 namespace {
@@ -27,6 +28,23 @@ Vec3 closest_on_edges(const Vec3& p, const TriangleCorners& t) {
   }
   return best;
 }
+
+// Sum of angles in (-pi, pi), each given by a vector, as the angle of one vector and a number of whole turns.
+class HalfAngleSum {
+ public:
+  void add(double cosine, double sine) {
+    const double x = x_ * cosine - y_ * sine, y = x_ * sine + y_ * cosine;
+    if (sine > 0 && y_ >= 0 && y < 0) ++turns_;
+    if (sine < 0 && y_ < 0 && y >= 0) --turns_;
+    x_ = x;
+    y_ = y;
+  }
+  double angle() const { return std::atan2(y_, x_) + 2 * std::numbers::pi * turns_; }
+
+ private:
+  double x_ = 1, y_ = 0;
+  int turns_ = 0;
+};
 
 }  // namespace
 
@@ -71,12 +89,16 @@ Vec3 interpolate(const TriangleCorners& t, const Vec3& barycentric) {
   return barycentric[0] * t[0] + barycentric[1] * t[1] + barycentric[2] * t[2];
 }
 
-double solid_angle(const Vec3& p, const TriangleCorners& t) {
-  const Vec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
-  const double volume = a.dot(b.cross(c));
-  if (volume == 0) return 0;
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2 * std::atan2(volume, la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+double solid_angle(const Vec3& p, std::span<const TriangleCorners> triangles) {
+  HalfAngleSum sum;
+  for (const TriangleCorners& t : triangles) {
+    const Vec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
+    const double volume = a.dot(b.cross(c));
+    if (volume == 0) continue;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm(), product = la * lb * lc;
+    sum.add((product + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb) / product, volume / product);
+  }
+  return 2 * sum.angle();
 }
 
 std::optional<double> ray_parameter(const Vec3& origin, const Vec3& direction, const TriangleCorners& t) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 #include "base/math.h"
 
@@ -25,9 +26,10 @@ Vec3 closest_barycentric_in_plane(const Vec3& p, const TriangleCorners& t);
 /// The point with those barycentric coordinates; exactly a corner when its coordinate is 1.
 Vec3 interpolate(const TriangleCorners& t, const Vec3& barycentric);
 
-/// Signed solid angle of the triangle seen from `p`, in (-2 pi, 2 pi): positive when `p` is behind it (inside
-/// of an outward-oriented surface). Van Oosterom and Strackee 1983. 0 in the triangle's plane.
-double solid_angle(const Vec3& p, const TriangleCorners& t);
+/// Sum of the signed solid angles of triangles seen from `p`, each in (-2 pi, 2 pi): positive when `p` is
+/// behind a triangle (inside of an outward-oriented surface), 0 in its plane. Van Oosterom and Strackee 1983;
+/// the half angles are added as arguments of complex numbers, so that all share one arc tangent.
+double solid_angle(const Vec3& p, std::span<const TriangleCorners> triangles);
 
 /// Parameter t >= 0 at which origin + t * direction meets the triangle from either side; none if it misses,
 /// if the ray runs in the plane or if the triangle has no area. Moeller and Trumbore 1997.

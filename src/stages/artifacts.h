@@ -27,6 +27,7 @@ struct ArtifactNames {
   std::string joint_maps() const { return prefix + "joint_maps"; }
   std::string placed() const { return prefix + "placed"; }
   std::string selection() const { return prefix + "selection"; }
+  std::string groups() const { return prefix + "groups"; }
   std::string field(std::size_t site) const { return prefix + "field:" + std::to_string(site); }
   std::string vdb(std::size_t site) const { return prefix + "vdb:" + std::to_string(site); }
   std::string surface() const { return prefix + "surface"; }

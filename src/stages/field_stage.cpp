@@ -16,7 +16,7 @@ class Field final : public Stage {
     return {.name = "field",
             .instance = std::to_string(site_ + 1),
             .version = 1,
-            .reads = {names_.graft(), names_.placed(), names_.selection()},
+            .reads = {names_.graft(), names_.placed(), names_.selection(), names_.groups()},
             .writes = {names_.field(site_), names_.vdb(site_)}};
   }
   void add_to_key(Hasher& key) const override {
@@ -26,11 +26,14 @@ class Field final : public Stage {
   }
 
   void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
-    SiteSolids solids =
-        site_solids(in.get<Graft>(names_.graft()), site_, in.get<std::vector<PolygonMesh>>(names_.placed()),
-                    in.get<std::vector<SourceSelection>>(names_.selection()));
     SiteField field;
-    if (solids.can_blend()) field = build_site_field(solids.solids, solids.blend, options_);
+    for (const SiteGroup& group : in.get<std::vector<SiteGroup>>(names_.groups())) {
+      if (group.front() != site_) continue;  // the first site of a group makes the field of all
+      const SiteSolids solids =
+          site_solids(in.get<Graft>(names_.graft()), group, in.get<std::vector<PolygonMesh>>(names_.placed()),
+                      in.get<std::vector<SourceSelection>>(names_.selection()));
+      if (solids.can_blend()) field = build_site_field(solids.solids, options_);
+    }
     out.put(names_.vdb(site_), field.is_empty() ? Bytes() : to_vdb(field.distance));
     out.put(names_.field(site_), std::move(field));
   }

@@ -32,7 +32,7 @@ class MakeJunctions final : public Stage {
   StageInfo info() const override {
     StageInfo info{.name = "junction",
                    .version = 1,
-                   .reads = {names_.graft(), names_.placed(), names_.selection()},
+                   .reads = {names_.graft(), names_.placed(), names_.selection(), names_.groups()},
                    .writes = {names_.surface()}};
     for (std::size_t k = 0; k < site_count_; ++k) info.reads.push_back(names_.field(k));
     return info;
@@ -43,23 +43,29 @@ class MakeJunctions final : public Stage {
     const auto& graft = in.get<Graft>(names_.graft());
     const auto& placed = in.get<std::vector<PolygonMesh>>(names_.placed());
     const auto& selections = in.get<std::vector<SourceSelection>>(names_.selection());
+    const auto& groups = in.get<std::vector<SiteGroup>>(names_.groups());
     std::vector<PreservedSource> sources;
     for (std::size_t s = 0; s < placed.size(); ++s) sources.push_back({&placed[s], selections[s]});
-    std::vector<SiteSolids> sites;
-    for (std::size_t k = 0; k < site_count_; ++k) {
-      sites.push_back(site_solids(graft, k, placed, selections));
-      discard_moved_faces(sources, sites[k].participants, sites[k].solids, in.get<SiteField>(names_.field(k)),
-                          k, options_);
+    std::vector<SiteSolids> solids;
+    for (const SiteGroup& group : groups) {
+      solids.push_back(site_solids(graft, group, placed, selections));
+      discard_moved_faces(sources, solids.back().participants, solids.back().solids,
+                          in.get<SiteField>(names_.field(group.front())), group.front(), options_);
     }
     for (PreservedSource& source : sources) clean_borders(source, options_);
     const TriangleBvh kept = preserved_bvh(sources);
     SurfaceResult result;
-    for (std::size_t k = 0; k < site_count_; ++k) {
-      int arcs = 0;
-      std::vector<JunctionLoop> loops = loops_of(sources, sites[k].participants, k, arcs);
-      result.junctions.push_back(build_junction(std::move(loops), in.get<SiteField>(names_.field(k)), kept));
-      result.arcs.push_back(arcs);
-      tell(result.junctions.back(), k, arcs, issues);
+    result.junctions.resize(site_count_);
+    result.arcs.resize(site_count_, 0);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const std::size_t first = groups[g].front();
+      result.junctions[first] =
+          build_junction(loops_of(sources, solids[g].participants, groups[g], result.arcs[first]),
+                         in.get<SiteField>(names_.field(first)), kept);
+      for (const std::size_t other : groups[g])
+        if (other != first)
+          result.junctions[other].reason = fmt::format("joined in the junction of operation {}", first + 1);
+      tell(result.junctions[first], first, result.arcs[first], issues);
     }
     result.joined = assemble_surface(sources, result.junctions);
     for (PreservedSource& source : sources) result.kept.push_back(std::move(source.selection.kept));
@@ -68,11 +74,11 @@ class MakeJunctions final : public Stage {
 
  private:
   static std::vector<JunctionLoop> loops_of(std::span<const PreservedSource> sources,
-                                            std::span<const SiteParticipant> participants, std::size_t site,
-                                            int& arcs) {
+                                            std::span<const SiteParticipant> participants,
+                                            const SiteGroup& group, int& arcs) {
     std::vector<JunctionLoop> loops;
     for (const SiteParticipant& p : participants) {
-      auto found = loops_of_site(sources[p.source.index()], p.source, site, p.is_host, arcs);
+      auto found = loops_of_sites(sources[p.source.index()], p.source, group, p.is_host, arcs);
       loops.insert(loops.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
     }
     return loops;

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "stages/inputs.h"
+#include "stages/site_solids.h"
 #include "stages/stages.h"
 #include "surface/selection.h"
 
@@ -56,7 +57,7 @@ class Select final : public Stage {
     return {.name = "select",
             .version = 1,
             .reads = joined(character_names(names_, inputs_), {names_.placement(), names_.graft()}),
-            .writes = {names_.placed(), names_.selection()}};
+            .writes = {names_.placed(), names_.selection(), names_.groups()}};
   }
   void add_to_key(Hasher& key) const override { key.add_value("options", options_); }
 
@@ -75,6 +76,7 @@ class Select final : public Stage {
       selections.push_back(select_faces(placed.back(), character.weights, cuts, options_,
                                         fmt::format("input {}", inputs_[source.input]), issues));
     }
+    out.put(names_.groups(), group_sites(graft, placed, selections));
     out.put(names_.placed(), std::move(placed));
     out.put(names_.selection(), std::move(selections));
   }

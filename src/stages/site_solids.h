@@ -7,11 +7,14 @@
 
 namespace skinforge {
 
-/// Who takes part in one site of a graft, and what each brings into its field.
+/// Sites that make one junction together, rising. Most stand alone; two limbs whose cuts run into each other
+/// do not.
+using SiteGroup = std::vector<std::size_t>;
+
+/// Who takes part in one junction, and what each brings into its field.
 struct SiteSolids {
   std::vector<SiteParticipant> participants;
   std::vector<FusionSolid> solids;  ///< one per participant
-  BlendOperator blend = BlendOperator::Blend;
 
   /// Whether there are two sides with something to blend.
   bool can_blend() const;
@@ -20,7 +23,12 @@ struct SiteSolids {
 /// Replace: every source that the operation cuts, and the donor, by their presence. Attach: the host as it is
 /// and the donor's sub-tree, closed, as a union. Remove and Detach blend nothing: only the sources that are
 /// cut.
-SiteSolids site_solids(const Graft& graft, std::size_t site, const std::vector<PolygonMesh>& placed,
+SiteSolids site_solids(const Graft& graft, const SiteGroup& group, const std::vector<PolygonMesh>& placed,
                        const std::vector<SourceSelection>& selections);
+
+/// Sites of one group: those that bring a part to the same source and affect regions that overlap (Sec. 6.1:
+/// one field for a composite operation). Sorted by their first site; each site is in one group.
+std::vector<SiteGroup> group_sites(const Graft& graft, const std::vector<PolygonMesh>& placed,
+                                   const std::vector<SourceSelection>& selections);
 
 }  // namespace skinforge

@@ -26,19 +26,23 @@ void cap_openings(FusionSolid& solid) {
 
 }  // namespace
 
-SiteParticipant cut_participant(SourceId source, const SourceSelection& selection, std::size_t site,
-                                bool is_host) {
-  SiteParticipant participant{source, is_host, std::vector<double>(selection.presence.size(), 1), {}};
-  for (std::size_t c = 0; c < selection.cut_sites.size(); ++c)
-    if (selection.cut_sites[c] == site) participant.presence = selection.site_presence[c];
+SiteParticipant cut_participant(SourceId source, const SourceSelection& selection,
+                                std::span<const std::size_t> sites) {
+  SiteParticipant participant{source, false, false, std::vector<double>(selection.presence.size(), 1), {}};
+  bool is_cut = false;
+  for (std::size_t c = 0; c < selection.cut_sites.size(); ++c) {
+    if (std::find(sites.begin(), sites.end(), selection.cut_sites[c]) == sites.end()) continue;
+    is_cut = true;
+    for (std::size_t v = 0; v < participant.presence.size(); ++v)
+      participant.presence[v] = std::min(participant.presence[v], selection.site_presence[c][v]);
+  }
   for (const ComponentRole role : selection.face_role)
-    participant.fusing.push_back(role == ComponentRole::Blended ? 1 : 0);
+    participant.fusing.push_back(is_cut && role == ComponentRole::Blended ? 1 : 0);
   return participant;
 }
 
-SiteParticipant host_participant(SourceId source, const PolygonMesh& mesh, const SourceSelection& selection,
-                                 const Vec3& where) {
-  SiteParticipant participant{source, true, std::vector<double>(mesh.vertex_count(), 1), {}};
+void fuse_component_near(SiteParticipant& host, const PolygonMesh& mesh, const SourceSelection& selection,
+                         const Vec3& where) {
   const Triangulation triangulation = triangulate(mesh);
   std::vector<Triangle> triangles;
   std::vector<FaceId> face;
@@ -49,17 +53,17 @@ SiteParticipant host_participant(SourceId source, const PolygonMesh& mesh, const
     face.push_back(triangulation.face[t]);
   }
   const ClosestPoint nearest = TriangleBvh(mesh.positions, triangles).closest(where);
-  participant.fusing.assign(mesh.face_count(), 0);
-  if (nearest.triangle < 0) return participant;
+  if (nearest.triangle < 0) return;
   const Components components = connected_components(mesh);
   const std::int32_t chosen = components.of_face[face[nearest.triangle].index()];
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) participant.fusing[f] = components.of_face[f] == chosen;
-  return participant;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f)
+    if (components.of_face[f] == chosen) host.fusing[f] = 1;
 }
 
-FusionSolid fusion_solid(const PolygonMesh& mesh, const SiteParticipant& participant, SolidExtent extent) {
+FusionSolid fusion_solid(const PolygonMesh& mesh, const SiteParticipant& participant) {
   FusionSolid solid;
   solid.is_host = participant.is_host;
+  solid.is_added = participant.is_added;
   std::vector<std::int32_t> renamed(mesh.vertex_count(), -1);
   const Triangulation all = triangulate(mesh);
   for (std::size_t t = 0; t < all.triangles.size(); ++t) {
@@ -67,7 +71,7 @@ FusionSolid fusion_solid(const PolygonMesh& mesh, const SiteParticipant& partici
     const auto& corners = all.triangles[t];
     const bool is_present = std::any_of(corners.begin(), corners.end(),
                                         [&](VertexId v) { return participant.presence[v.index()] > 0; });
-    if (extent == SolidExtent::Trimmed && !is_present) continue;
+    if (participant.is_added && !is_present) continue;
     Triangle triangle{};
     for (int k = 0; k < 3; ++k) {
       std::int32_t& name = renamed[corners[k].index()];
@@ -80,7 +84,7 @@ FusionSolid fusion_solid(const PolygonMesh& mesh, const SiteParticipant& partici
     }
     solid.triangles.push_back(triangle);
   }
-  if (extent == SolidExtent::Trimmed) cap_openings(solid);
+  if (participant.is_added) cap_openings(solid);
   solid.bvh = TriangleBvh(solid.positions, solid.triangles);
   return solid;
 }

@@ -118,8 +118,8 @@ void clean_borders(PreservedSource& source, const PreserveOptions& options) {
   spread_sites(edges, selection);
 }
 
-std::vector<JunctionLoop> loops_of_site(const PreservedSource& source, SourceId id, std::size_t site,
-                                        bool is_host, int& arcs) {
+std::vector<JunctionLoop> loops_of_sites(const PreservedSource& source, SourceId id,
+                                         std::span<const std::size_t> sites, bool is_host, int& arcs) {
   const PolygonMesh& mesh = *source.mesh;
   const EdgeList edges = build_edges(mesh);
   std::map<std::pair<VertexId, VertexId>, std::int32_t> edge_index;
@@ -132,7 +132,8 @@ std::vector<JunctionLoop> loops_of_site(const PreservedSource& source, SourceId 
   }
   std::vector<JunctionLoop> loops;
   for (const BorderChain& chain : border_chains(mesh, edges, source.selection.kept)) {
-    if (site_of_chain(edges, source.selection, edge_index, chain) != static_cast<std::int32_t>(site))
+    const std::int32_t owner = site_of_chain(edges, source.selection, edge_index, chain);
+    if (owner < 0 || std::find(sites.begin(), sites.end(), static_cast<std::size_t>(owner)) == sites.end())
       continue;
     if (!chain.is_closed || chain.vertices.size() < 3) {
       ++arcs;

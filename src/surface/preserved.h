@@ -39,9 +39,9 @@ void discard_moved_faces(std::span<PreservedSource> sources, std::span<const Sit
 /// junction.md b.0). Each face discarded here goes to the site of its discarded neighbours.
 void clean_borders(PreservedSource& source, const PreserveOptions& options);
 
-/// The closed borders that belong to `site`. Arcs that end on an original open border are counted in `arcs`
-/// and left open.
-std::vector<JunctionLoop> loops_of_site(const PreservedSource& source, SourceId id, std::size_t site,
-                                        bool is_host, int& arcs);
+/// The closed borders that belong to one of `sites`. Arcs that end on an original open border are counted in
+/// `arcs` and left open.
+std::vector<JunctionLoop> loops_of_sites(const PreservedSource& source, SourceId id,
+                                         std::span<const std::size_t> sites, bool is_host, int& arcs);
 
 }  // namespace skinforge

@@ -101,83 +101,85 @@ Lattice make_lattice(Box box, double voxel, const FieldOptions& options) {
   return lattice;
 }
 
-// Eq. 1 at one point, from the distances and presences of all solids there.
-double blend_values(BlendOperator blend, double fillet, std::span<const double> distance,
-                    std::span<const double> presence) {
-  if (distance.size() == 1) return distance[0];
-  if (blend == BlendOperator::Union) {
-    double result = distance[0];
-    for (std::size_t s = 1; s < distance.size(); ++s) result = blend_union(result, distance[s], fillet);
-    return result;
-  }
-  std::size_t first = 0, second = 1;
-  if (presence[1] > presence[0]) std::swap(first, second);
-  for (std::size_t s = 2; s < presence.size(); ++s) {
-    if (presence[s] > presence[first])
-      second = first, first = s;
-    else if (presence[s] > presence[second])
-      second = s;
-  }
-  return blend_replace(distance[first], presence[first], distance[second], presence[second]);
-}
+// What one solid says about one point.
+struct Sample {
+  double distance = 0, presence = 0;
+  bool is_added = false;
+};
 
-Box affected_region(const std::vector<FusionSolid>& solids, BlendOperator blend) {
-  Box box;
-  for (const FusionSolid& solid : solids) box.extend(cut_region(solid));
-  if (blend != BlendOperator::Union || solids.size() < 2) return box;
-  Box donor_box;
-  for (const FusionSolid& solid : solids)
-    if (!solid.is_host) donor_box.extend(cut_region(solid));
-  const double reach = donor_box.isEmpty() ? 0 : 0.25 * donor_box.diagonal().norm();
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    for (std::size_t j = 0; j < solids.size(); ++j)
-      if (solids[i].is_host != solids[j].is_host && !solids[i].is_host)
-        extend_by_contact(box, solids[i], solids[j], reach);
-  return box;
+// Eq. 1 at one point: replacement by the two of highest presence, then addition.
+double blend_samples(std::span<const Sample> samples, double fillet) {
+  const Sample *first = nullptr, *second = nullptr;
+  for (const Sample& s : samples) {
+    if (s.is_added) continue;
+    if (!first || s.presence > first->presence)
+      second = first, first = &s;
+    else if (!second || s.presence > second->presence)
+      second = &s;
+  }
+  double result = std::numeric_limits<double>::infinity();
+  if (first)
+    result = second ? blend_replace(first->distance, first->presence, second->distance, second->presence)
+                    : first->distance;
+  for (const Sample& s : samples)
+    if (s.is_added) result = std::isinf(result) ? s.distance : blend_union(result, s.distance, fillet);
+  return result;
 }
 
 }  // namespace
 
-SiteField build_site_field(const std::vector<FusionSolid>& solids, BlendOperator blend,
-                           const FieldOptions& options) {
+Eigen::AlignedBox3d affected_region(const std::vector<FusionSolid>& solids) {
+  Box box;
+  for (const FusionSolid& solid : solids) {
+    const Box cut = cut_region(solid);
+    box.extend(cut);
+    if (!solid.is_added || cut.isEmpty()) continue;
+    const double reach =
+        0.25 * cut.diagonal().norm();  // ours: a limb enters its host within a quarter of its own root's size
+    for (const FusionSolid& host : solids)
+      if (host.is_host) extend_by_contact(box, solid, host, reach);
+  }
+  return box;
+}
+
+SiteField build_site_field(const std::vector<FusionSolid>& solids, const FieldOptions& options) {
   SiteField field;
-  field.blend = blend;
-  const Box box = affected_region(solids, blend);
+  const Box box = affected_region(solids);
   if (box.isEmpty()) return field;
   const double voxel = choose_voxel(solids, box, options);
   if (!(voxel > 0) || !std::isfinite(voxel)) return field;
   field.distance.lattice = make_lattice(box, voxel, options);
   const Lattice& lattice = field.distance.lattice;
-  field.fillet = blend == BlendOperator::Union ? options.fillet_voxels * lattice.voxel : 0;
+  field.fillet = options.fillet_voxels * lattice.voxel;
   field.band = options.band_voxels * lattice.voxel;
-  std::vector<SourceSamples> samples;
+  std::vector<SourceSamples> sources;
   for (const FusionSolid& solid : solids)
-    samples.push_back(sample_source(lattice, solid.bvh, solid.triangles, solid.presence, field.band));
+    sources.push_back(sample_source(lattice, solid.bvh, solid.triangles, solid.presence, field.band));
   field.distance.values.resize(lattice.count());
   parallel_chunks(lattice.count(), 4096, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> distance(solids.size()), presence(solids.size());
+    std::vector<Sample> samples(solids.size());
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t s = 0; s < solids.size(); ++s)
-        distance[s] = samples[s].distance[i], presence[s] = samples[s].presence[i];
-      field.distance.values[i] = static_cast<float>(blend_values(blend, field.fillet, distance, presence));
+        samples[s] = {sources[s].distance[i], sources[s].presence[i], solids[s].is_added};
+      field.distance.values[i] = static_cast<float>(blend_samples(samples, field.fillet));
     }
   });
   return field;
 }
 
 double blended_distance(const std::vector<FusionSolid>& solids, const SiteField& field, const Vec3& point) {
-  std::vector<double> distance, presence;
+  std::vector<Sample> samples;
   for (const FusionSolid& solid : solids) {
     const ClosestPoint closest = solid.bvh.closest(point, field.band);
-    double p = 0;
+    double presence = 0;
     if (closest.triangle >= 0)
       for (int k = 0; k < 3; ++k)
-        p += closest.barycentric[k] * solid.presence[solid.triangles[closest.triangle][k]];
-    const double d = closest.triangle < 0 ? field.band : closest.distance;
-    distance.push_back(solid.bvh.winding_number(point) > 0.5 ? -d : d);
-    presence.push_back(p);
+        presence += closest.barycentric[k] * solid.presence[solid.triangles[closest.triangle][k]];
+    const double distance = closest.triangle < 0 ? field.band : closest.distance;
+    samples.push_back(
+        {solid.bvh.winding_number(point) > 0.5 ? -distance : distance, presence, solid.is_added});
   }
-  return blend_values(field.blend, field.fillet, distance, presence);
+  return blend_samples(samples, field.fillet);
 }
 
 }  // namespace skinforge

@@ -1,17 +1,11 @@
 #pragma once
 
-#include <string>
+#include <Eigen/Geometry>
 
 #include "field/signed_distance.h"
 #include "surface/fusion_solid.h"
 
 namespace skinforge {
-
-/// How two distances become one (Eq. 1).
-enum class BlendOperator : std::uint8_t {
-  Blend,  ///< weighted by presence: replacements
-  Union,  ///< the nearer solid, with a small fillet: additions
-};
 
 struct FieldOptions {
   double voxel_factor = 0.8;  ///< Sec. 6.1: times the lesser mean edge length
@@ -27,28 +21,29 @@ struct FieldOptions {
   }
 };
 
-/// The field of one site with the operator it was made by.
+/// The field of one junction: of one site, or of several whose regions run into each other.
 struct SiteField {
   DistanceField distance;  ///< delta_R; empty lattice when there is nothing to blend
-  BlendOperator blend = BlendOperator::Blend;
-  double fillet = 0;  ///< metres
-  double band = 0;    ///< metres
+  double fillet = 0;       ///< metres
+  double band = 0;         ///< metres
 
   bool is_empty() const { return distance.values.empty(); }
   double voxel() const { return distance.lattice.voxel; }
 
   template <class Archive>
   friend void fields(Archive& a, SiteField& f) {
-    a(f.distance, f.blend, f.fillet, f.band);
+    a(f.distance, f.fillet, f.band);
   }
 };
 
-/// Samples the solids of one site in the region that the operation affects (SkinMixer Sec. 6.1) and blends
-/// them by Eq. 1; with more than two solids each point follows the two of highest presence. Region: all
-/// vertices that are neither wholly present nor wholly absent and the faces between 0 and 1; for a union also
-/// where the solids meet. Empty when no solid has anything there.
-SiteField build_site_field(const std::vector<FusionSolid>& solids, BlendOperator blend,
-                           const FieldOptions& options);
+/// The region that the solids affect (SkinMixer Sec. 6.1): all faces between presence 0 and 1, and where an
+/// added solid meets a host. Empty when nothing is affected.
+Eigen::AlignedBox3d affected_region(const std::vector<FusionSolid>& solids);
+
+/// Samples the solids in the affected region and blends them by Eq. 1: of those that fade by presence each
+/// point follows the two of highest presence (Sec. 6.1, last paragraph), then the added ones are united with
+/// that. Empty when nothing is affected.
+SiteField build_site_field(const std::vector<FusionSolid>& solids, const FieldOptions& options);
 
 /// delta_R at one point by exact queries, as `build_site_field` samples it.
 double blended_distance(const std::vector<FusionSolid>& solids, const SiteField& field, const Vec3& point);

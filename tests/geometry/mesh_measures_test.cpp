@@ -72,19 +72,5 @@ TEST(FaceQualities, ByHand) {
   EXPECT_NEAR(q[1], std::sqrt(2.0 / 3), 1e-14);
 }
 
-TEST(DistributionOf, FiveNumbers) {
-  const Distribution d = distribution_of({5, 1, 4, 2, 3});
-  EXPECT_EQ(d.count, 5u);
-  EXPECT_EQ(d.min, 1);
-  EXPECT_EQ(d.mean, 3);
-  EXPECT_DOUBLE_EQ(d.p05, 1.2);
-  EXPECT_EQ(d.p25, 2);
-  EXPECT_EQ(d.p50, 3);
-  EXPECT_DOUBLE_EQ(d.p95, 4.8);
-  EXPECT_EQ(d.max, 5);
-  EXPECT_EQ(distribution_of({}).count, 0u);
-  EXPECT_EQ(distribution_of({7}).p95, 7);
-}
-
 }  // namespace
 }  // namespace skinforge

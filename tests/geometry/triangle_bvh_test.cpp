@@ -34,7 +34,7 @@ double brute_force_distance(const Soup& s, const Vec3& p) {
 
 double brute_force_winding(const Soup& s, const Vec3& p) {
   double sum = 0;
-  for (std::size_t t = 0; t < s.triangles.size(); ++t) sum += solid_angle(p, corners(s, t));
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) sum += solid_angle(p, std::array{corners(s, t)});
   return sum / (4 * std::numbers::pi);
 }
 
@@ -101,6 +101,19 @@ TEST(TriangleBvh, ClosestMatchesBruteForce) {
       EXPECT_NEAR((p - c.point).norm(), c.distance, kRounding);
       EXPECT_TRUE(interpolate(corners(soup, c.triangle), c.barycentric).isApprox(c.point, kRounding));
     }
+  }
+}
+
+TEST(TriangleBvh, AnyHintGivesTheSameAnswer) {
+  Points points(8);
+  const Soup knot = testing::torus_knot_soup(40, 8);
+  const TriangleBvh bvh = bvh_of(knot);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p = points.in_box(-3.5, 3.5);
+    const ClosestPoint plain = bvh.closest(p), hinted = bvh.closest_from_hint(p, (37 * i) % 640);
+    EXPECT_EQ(plain.triangle, hinted.triangle);
+    EXPECT_EQ(plain.point, hinted.point);
+    EXPECT_EQ(plain.distance, hinted.distance);
   }
 }
 
