@@ -28,6 +28,7 @@ namespace {
 
 constexpr std::size_t kMaxAnswer = std::size_t{4} << 30;  // far above what fits the child's memory
 constexpr const char* kMemory = "out of memory";
+constexpr const char* kMark = "SKINFORGE_IMPORT_WORKER";  // in the environment of every worker
 
 std::string& worker_path() {
   static std::string path = "/proc/self/exe";
@@ -189,6 +190,23 @@ void store(const Task& task, Descriptor& target) {
   if (::lseek(target.number(), 0, SEEK_SET) != 0) system_failed("cannot hand the file to the importer");
 }
 
+/// A program that is started as a worker and imports in its own name does not know that it is one: it would
+/// start itself again, and so on.
+void refuse_in_worker() {
+  if (std::getenv(kMark))
+    throw Error(ExitCode::Internal,
+                "this program was started as an import worker and does not answer --import-worker");
+}
+
+/// The environment, marked.
+std::vector<char*> worker_environment(std::string& mark) {
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable; ++variable) variables.push_back(*variable);
+  variables.push_back(mark.data());
+  variables.push_back(nullptr);
+  return variables;
+}
+
 pid_t start_worker(const std::string& path, int task, int answer) {
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
@@ -198,8 +216,10 @@ pid_t start_worker(const std::string& path, int task, int answer) {
   ::posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
   std::string program = "skinforge", flag = "--import-worker", file = path;
   char* arguments[] = {program.data(), flag.data(), file.data(), nullptr};
+  std::string mark = std::string(kMark) + "=1";
   pid_t child = 0;
-  const int failure = ::posix_spawn(&child, worker_path().c_str(), &actions, nullptr, arguments, environ);
+  const int failure = ::posix_spawn(&child, worker_path().c_str(), &actions, nullptr, arguments,
+                                    worker_environment(mark).data());
   ::posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) {
     errno = failure;
@@ -254,6 +274,7 @@ Answer ask_worker(const std::vector<InputFile>& files, const SandboxLimits& limi
 }  // namespace
 
 RawScene read_in_child(const std::vector<InputFile>& files, const SandboxLimits& limits) {
+  refuse_in_worker();
   const std::string place = printable(files.front().path);
   Answer answer = with_context(place, [&] { return ask_worker(files, limits); });
   if (answer.error == kMemory)

@@ -25,8 +25,9 @@ struct SandboxLimits {
 /// "FILE: importer crashed (signal 11)", "... took more than 10 s", "... needs more than ... of memory".
 RawScene read_in_child(const std::vector<InputFile>& files, const SandboxLimits& limits = {});
 
-/// The program started as worker; it must hand `--import-worker` to `import_worker_main`. Default: the
-/// running program. Not for use while imports run.
+/// The program started as worker; its `main` must hand `--import-worker` to `import_worker_main` before all
+/// else. Default: the running program. A program that does not know the flag and imports again is stopped
+/// there (Internal). Not for use while imports run.
 void set_import_worker(std::string executable);
 
 /// The worker: `PROGRAM --import-worker PATH`, files and limits on stdin, the answer on stdout; PATH is only
