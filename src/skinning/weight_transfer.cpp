@@ -187,19 +187,11 @@ TransferredWeights transfer_weights(const ResultSurface& result, std::span<const
   const auto measure = [&](const std::vector<Row>& r) {
     return largest_steps(edges, [&](VertexId v) -> const Row& { return r[v.index()]; });
   };
-  std::vector<Row> best = cut_rows(rows, shares.new_vertices, options.influences);
-  transferred.blended = transferred.steps = measure(best);
-  while (transferred.smoothing_passes < options.smoothing_passes &&
-         transferred.steps.junction > transferred.steps.neighbours) {
-    smooth_once(result, shares.new_vertices, rows);
-    std::vector<Row> smoother = cut_rows(rows, shares.new_vertices, options.influences);
-    const WeightSteps steps = measure(smoother);
-    if (steps.junction >= transferred.steps.junction) break;  // what is left sits between fixed rows
-    best = std::move(smoother);
-    transferred.steps = steps;
-    ++transferred.smoothing_passes;
-  }
-  for (const Row& row : best) transferred.weights.push_row(row);
+  transferred.blended = measure(cut_rows(rows, shares.new_vertices, options.influences));
+  for (int pass = 0; pass < options.smoothing_passes; ++pass) smooth_once(result, shares.new_vertices, rows);
+  rows = cut_rows(std::move(rows), shares.new_vertices, options.influences);
+  transferred.steps = measure(rows);
+  for (const Row& row : rows) transferred.weights.push_row(row);
   return transferred;
 }
 
