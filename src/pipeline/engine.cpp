@@ -67,6 +67,7 @@ struct Engine::Session {
   std::mutex observing;
   std::vector<std::unique_ptr<Node>> nodes;
   std::map<std::string, Slot> slots;
+  std::map<Digest, const Node*> ran;  // by key: who made its outputs first
   std::optional<std::map<std::string, Digest>> last_keys;
 
   void add_source(const std::string& name, std::shared_ptr<Artifact> artifact);
@@ -79,6 +80,7 @@ struct Engine::Session {
   void adopt(Node& node, const Manifest& manifest);
   std::string reason(const Node& node);
   std::vector<std::shared_ptr<Artifact>> execute(Node& node, IssueSink& issues, StageCost& cost);
+  void accept(const Node& node, const std::vector<std::shared_ptr<Artifact>>& outputs);
   void store(Node& node, const std::vector<std::shared_ptr<Artifact>>& outputs);
   void ensure(const std::string& name);
   void remake(Node& node, const std::string& wanted);
@@ -169,6 +171,22 @@ std::vector<std::shared_ptr<Artifact>> Engine::Session::execute(Node& node, Issu
   return out.take();
 }
 
+// Makes fresh outputs known. Two stages with one key (a file used under two names) must give the same bytes;
+// if not, something that changes the result is missing from the key, and whichever manifest is stored last
+// would answer for both.
+void Engine::Session::accept(const Node& node, const std::vector<std::shared_ptr<Artifact>>& outputs) {
+  const std::lock_guard lock(mutex);
+  const Node& twin = *ran.emplace(node.key.digest, &node).first->second;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const auto& other = slots.at(twin.info.writes[i]).artifact;
+    if (other && other->digest() != outputs[i]->digest())
+      throw Error(ExitCode::NotReproducible,
+                  "gave other bytes than " + twin.info.label() + ", which has the same key (artifact \"" +
+                      node.info.writes[i] + "\"): a parameter is missing from add_to_key");
+  }
+  for (std::size_t i = 0; i < outputs.size(); ++i) slots.at(node.info.writes[i]).artifact = outputs[i];
+}
+
 // Blobs first, the manifest that names them last; when the cache refuses, the bytes stay in memory.
 void Engine::Session::store(Node& node, const std::vector<std::shared_ptr<Artifact>>& outputs) {
   Manifest manifest{.key = node.key.digest,
@@ -245,9 +263,8 @@ void Engine::Session::process(Node& node) {
   const auto outputs = execute(node, issues, node.result.cost);
   node.result.issues = issues.issues();
   node.result.status = StageStatus::Ran;
+  accept(node, outputs);
   store(node, outputs);
-  const std::lock_guard lock(mutex);
-  for (std::size_t i = 0; i < outputs.size(); ++i) slots.at(node.info.writes[i]).artifact = outputs[i];
 }
 
 void Engine::Session::process_safely(Node& node) {

@@ -14,10 +14,10 @@ namespace skinforge {
 
 /// What a stage is called, and which artifacts it takes and makes.
 struct StageInfo {
-  std::string name;  ///< what it does: "import", "map_joints"
-  std::string instance =
-      {};           ///< which one, where there are several: "horse", a clip's name; never part of a key
-  int version = 1;  ///< raise when equal inputs give other outputs: part of the key
+  std::string name;           ///< what it does: "import", "map_joints"
+  std::string instance = {};  ///< which one, where there are several: "horse", a clip's name; never part of a
+                              ///< key, so no result may depend on it
+  int version = 1;            ///< raise when equal inputs give other outputs: part of the key
   std::vector<std::string> reads = {};   ///< artifacts, e.g. "character:horse"; only their digests, in this
                                          ///< order, are part of the key
   std::vector<std::string> writes = {};  ///< artifacts; each must be put

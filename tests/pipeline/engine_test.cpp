@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <latch>
 #include <thread>
 
 #include "pipeline/text_stage.h"
@@ -135,6 +136,39 @@ TEST(Engine, TakesASecondBatch) {
   engine.run();
   EXPECT_EQ(engine.get<Text>("b").value, "As!Ass");
   EXPECT_THAT(engine.results(), SizeIs(2));
+}
+
+// The instance is no part of the key, so a stage whose result depends on it has a twin with other bytes. Both
+// wait for each other, so that neither is a hit.
+TEST(Engine, NoticesAParameterThatIsMissingFromTheKey) {
+  struct Named final : Stage {
+    std::string name;
+    bool is_honest;
+    std::latch& both;
+    Named(std::string n, bool honest, std::latch& b) : name(std::move(n)), is_honest(honest), both(b) {}
+    StageInfo info() const override { return {.name = "import", .instance = name, .writes = {name}}; }
+    void add_to_key(Hasher&) const override {}
+    void run(const StageInput&, StageOutput& out, IssueSink&) const override {
+      both.arrive_and_wait();
+      out.put(name, Text{is_honest ? "same" : name});
+    }
+  };
+  for (const bool is_honest : {true, false}) {
+    MemoryStore store;
+    Cache cache(store);
+    Engine engine(cache, {.jobs = 2});
+    std::latch both(2);
+    engine.add(std::make_unique<Named>("horse", is_honest, both));
+    engine.add(std::make_unique<Named>("pony", is_honest, both));
+    engine.run();
+    EXPECT_EQ(engine.is_ok(), is_honest);
+    EXPECT_EQ(engine.has("horse") && engine.has("pony"), is_honest);
+    for (const StageResult& result : engine.results()) {
+      if (result.status != StageStatus::Failed) continue;
+      EXPECT_EQ(result.code, ExitCode::NotReproducible);
+      EXPECT_THAT(result.error, HasSubstr("a parameter is missing from add_to_key"));
+    }
+  }
 }
 
 TEST(Engine, RunsOnlyWhatAnArtifactNeeds) {
