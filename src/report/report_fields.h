@@ -108,7 +108,7 @@ void describe(const ResultJointReport& j, F& f) {
 
 template <class F>
 void describe(const JunctionReport& j, F& f) {
-  f("operation", j.operation, "index", "Operation that made this junction, counted from 0");
+  f("operation", j.operation, "index", "Operation that made this junction, counted from 1");
   f("rung", j.rung, "text", "Method that made its surface");
   f("reason", j.reason, "text", "Why that method and no finer one; empty when it was the first choice");
   f("voxel", j.voxel, "m", "Edge of the voxels of its distance field");

@@ -61,7 +61,7 @@ std::string operation_line(const OperationReport& o) {
 std::string operation_lines(const Report& report) {
   TextTable table;
   for (std::size_t i = 0; i < report.operations.size(); ++i)
-    table.add({std::to_string(i), operation_line(report.operations[i])});
+    table.add({std::to_string(i + 1), operation_line(report.operations[i])});
   return table.str();
 }
 

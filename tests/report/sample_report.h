@@ -45,6 +45,7 @@ inline Report sample_report() {
   r.joint_maps = {{0, "horse", {{"Neck1", "Spine", 0.75}}}};
   r.joints = {{"Root", 0, "horse", "Root"}, {"Spine", 1, "man", "Spine"}};
   JunctionReport j;
+  j.operation = 1;
   j.rung = "ring zip";
   j.reason = "24 and 18 border edges are no tube of quads";
   j.voxel = 0.021;
