@@ -1,0 +1,163 @@
+#include "io/sandbox.h"
+
+#include <gmock/gmock.h>
+
+#include "base/error.h"
+#include "testing/assets.h"
+
+namespace skinforge {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+InputFile file_of(const std::string& path, const std::string& text) {
+  const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+  return {path, Bytes(begin, begin + text.size()), {}};
+}
+
+const char* const kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+/// The one-line message of a refusal, which must be the fault of the input.
+std::string refusal(const std::vector<InputFile>& files, const SandboxLimits& limits = {}) {
+  try {
+    read_in_child(files, limits);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::BadInput);
+    EXPECT_THAT(error.what(), ::testing::Not(HasSubstr("\n")));
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+std::string refusal_of_shared(const std::string& path, const SandboxLimits& limits = {}) {
+  return refusal(read_input_files(testing::shared_file(path)), limits);
+}
+
+/// Starts another program as the worker while it lives.
+class OtherWorker {
+ public:
+  explicit OtherWorker(const char* program) { set_import_worker(program); }
+  ~OtherWorker() { set_import_worker("/proc/self/exe"); }
+};
+
+TEST(Sandbox, HandsTheSceneBack) {
+  const RawScene scene = read_in_child({file_of("some/folder/flat.obj", kTriangle)});
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  ASSERT_EQ(scene.meshes[0].primitives.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].primitives[0].positions.size(), 3u);
+}
+
+TEST(Sandbox, PassesTheReadersMessageOn) {
+  EXPECT_THAT(refusal({file_of("some/folder/bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")}),
+              StartsWith("some/folder/bad.obj: "));
+}
+
+TEST(Sandbox, UnknownFormatIsOneLine) {
+  EXPECT_THAT(refusal({file_of("notes.docx", "nothing of the kind")}), StartsWith("notes.docx: "));
+}
+
+// A COLLADA node that contains itself runs Assimp out of its stack.
+TEST(Sandbox, CrashIsOneLine) {
+  SKINFORGE_NEEDS_SHARED();
+  EXPECT_THAT(refusal_of_shared("hostile/gen/dae/node_cycle.dae"),
+              HasSubstr("node_cycle.dae: importer crashed (signal 11)"));
+  EXPECT_THAT(refusal_of_shared("hostile/gen/fbx/cluster_index_oor.fbx"),
+              HasSubstr(": importer crashed (signal"));
+}
+
+TEST(Sandbox, MemoryLimitIsOneLine) {
+  SKINFORGE_NEEDS_SHARED();
+  EXPECT_THAT(refusal_of_shared("hostile/gen/off/count_4e9.off"),
+              HasSubstr("count_4e9.off: importer needs more than 2048 MB of memory"));
+}
+
+TEST(Sandbox, SmallMemoryNeverHarmsTheParent) {
+  SKINFORGE_NEEDS_SHARED();
+  SandboxLimits limits;
+  limits.stack = std::size_t{8} << 20;
+  const auto files = read_input_files(testing::shared_file("assets/quaternius_eagle/eagle.fbx"));
+  std::size_t refused = 0;
+  for (std::size_t megabytes = 16; megabytes <= 256; megabytes *= 2) {
+    limits.address_space = megabytes << 20;
+    try {
+      EXPECT_FALSE(read_in_child(files, limits).meshes.empty());
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("eagle.fbx: importer"));
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 0u);
+}
+
+// A bone cycle grows for seconds; one second of processor time is allowed here.
+TEST(Sandbox, TimeLimitIsOneLine) {
+  SKINFORGE_NEEDS_SHARED();
+  SandboxLimits limits;
+  limits.cpu_seconds = 1;
+  limits.address_space = std::size_t{64} << 30;
+  EXPECT_THAT(refusal_of_shared("hostile/gen/fbx/model_cycle.fbx", limits),
+              ::testing::AnyOf(HasSubstr("model_cycle.fbx: importer took more than 1 s"),
+                               HasSubstr("model_cycle.fbx: node")));
+}
+
+TEST(Sandbox, GarbageFromTheWorkerIsRefused) {
+  const OtherWorker worker("/bin/echo");
+  EXPECT_EQ(refusal({file_of("flat.obj", kTriangle)}), "flat.obj: importer gave a broken answer");
+}
+
+TEST(Sandbox, FailingWorkerIsRefused) {
+  const OtherWorker worker("/bin/false");
+  EXPECT_EQ(refusal({file_of("flat.obj", kTriangle)}), "flat.obj: importer ended with status 1");
+}
+
+// A program that imports although it was started as a worker must not start itself again and again.
+TEST(Sandbox, WorkerThatDoesNotKnowItStopsAtOnce) {
+  ::setenv("SKINFORGE_IMPORT_WORKER", "1", 1);
+  try {
+    read_in_child({file_of("flat.obj", kTriangle)});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::Internal);
+    EXPECT_THAT(error.what(), HasSubstr("does not answer --import-worker"));
+  }
+  ::unsetenv("SKINFORGE_IMPORT_WORKER");
+}
+
+TEST(Sandbox, MissingWorkerIsOurFault) {
+  const OtherWorker worker("/no/such/program");
+  try {
+    read_in_child({file_of("flat.obj", kTriangle)});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::StageFailed);
+    EXPECT_THAT(error.what(), HasSubstr("cannot start the importer"));
+  }
+}
+
+/// Every foreign file of the hostile corpus: a character, or one line that begins with the path.
+TEST(Sandbox, HostileFilesEndInOneLine) {
+  SKINFORGE_NEEDS_SHARED();
+  std::size_t files = 0, refused = 0;
+  for (const char* folder : {"gen/fbx", "gen/obj", "gen/off", "gen/dae", "ufbx", "assimp"})
+    for (const auto& entry :
+         std::filesystem::directory_iterator(testing::shared_folder() / "hostile" / folder)) {
+      const std::string path = entry.path().string(), ending = entry.path().extension().string();
+      if (ending != ".fbx" && ending != ".obj" && ending != ".off" && ending != ".dae") continue;
+      ++files;
+      try {
+        IssueSink issues;
+        import_character(path, issues);
+      } catch (const Error& error) {
+        ++refused;
+        EXPECT_EQ(error.code(), ExitCode::BadInput) << path;
+        EXPECT_THAT(error.what(), StartsWith(path + ": "));
+        EXPECT_THAT(error.what(), ::testing::Not(HasSubstr("\n")));
+      }
+    }
+  EXPECT_GT(files, 50u);
+  EXPECT_GT(refused, files / 2);
+}
+
+}  // namespace
+}  // namespace skinforge
