@@ -7,7 +7,7 @@
 namespace skinforge {
 namespace {
 
-constexpr int kBins = 16;            // Wald 2007: more gain nothing
+constexpr int kBins = 16;            // as Wald 2007
 constexpr int kHeuristicDepth = 40;  // ours: real meshes need about 10; below it the halves are equal
 
 struct Range {

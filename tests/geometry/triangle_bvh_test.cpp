@@ -34,7 +34,10 @@ double brute_force_distance(const Soup& s, const Vec3& p) {
 
 double brute_force_winding(const Soup& s, const Vec3& p) {
   double sum = 0;
-  for (std::size_t t = 0; t < s.triangles.size(); ++t) sum += solid_angle(p, std::array{corners(s, t)});
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    const TriangleCorners one = corners(s, t);
+    sum += solid_angle(p, std::span(&one, 1));
+  }
   return sum / (4 * std::numbers::pi);
 }
 

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace skinforge {
@@ -60,17 +60,17 @@ TEST(ClosestBarycentric, BeatsSampling) {
 TEST(SolidAngle, OctahedronFace) {
   const TriangleCorners face = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
   const TriangleCorners back = {face[0], face[2], face[1]};
-  EXPECT_NEAR(solid_angle(Vec3::Zero(), std::array{face}), std::numbers::pi / 2, kRounding);
-  EXPECT_NEAR(solid_angle(Vec3::Zero(), std::array{back}), -std::numbers::pi / 2, kRounding);
-  EXPECT_EQ(solid_angle({1, 1, 0}, std::array{kRight}), 0);  // in the plane
-  EXPECT_EQ(solid_angle({9, 9, 0}, std::array{kRight}), 0);
+  EXPECT_NEAR(solid_angle(Vec3::Zero(), std::span(&face, 1)), std::numbers::pi / 2, kRounding);
+  EXPECT_NEAR(solid_angle(Vec3::Zero(), std::span(&back, 1)), -std::numbers::pi / 2, kRounding);
+  EXPECT_EQ(solid_angle({1, 1, 0}, std::span(&kRight, 1)), 0);  // in the plane
+  EXPECT_EQ(solid_angle({9, 9, 0}, std::span(&kRight, 1)), 0);
 }
 
 // Sums beyond whole turns: the same face seen 30 times, from close by, with its reverse once.
 TEST(SolidAngle, ManyTurnsAddUp) {
   const Vec3 near(1, 1, -0.01);
   const TriangleCorners back = {kRight[0], kRight[2], kRight[1]};
-  const double one = solid_angle(near, std::array{kRight});
+  const double one = solid_angle(near, std::span(&kRight, 1));
   EXPECT_GT(one, 6);
   std::vector<TriangleCorners> many(30, kRight);
   EXPECT_NEAR(solid_angle(near, many), 30 * one, 30 * kRounding);
