@@ -8,15 +8,16 @@
 #include <set>
 
 #include "base/error.h"
+#include "io/trs.h"
 
 namespace skinforge {
 namespace {
 
 constexpr std::size_t kMaxNodes = 65'536, kMaxDepth = 1'024, kMaxJoints = 4'096;
 constexpr double kUnitQuaternion =
-    5e-3;                             // what rounding to 8 bits leaves; the Khronos validator allows as much
-constexpr double kAffineRow = 1e-6;   // last row of a float matrix that went through a few products
-constexpr double kOrthogonal = 1e-4;  // columns of a float matrix that went through a chain of products
+    5e-3;                            // what rounding to 8 bits leaves; the Khronos validator allows as much
+constexpr double kAffineRow = 1e-6;  // last row of a float matrix that went through a few products
+constexpr double kShear = 1e-4;      // what a chain of products of float matrices leaves
 
 Quat rotation(const JsonPlace& place, const std::string& where, IssueSink& issues) {
   const auto q = place.numbers(4);
@@ -34,20 +35,6 @@ Affine3 affine(const double* column_major, const JsonPlace& place, const std::st
   if (row.cwiseAbs().maxCoeff() > kAffineRow) place.fail(which + " does not end in the row 0 0 0 1");
   Affine3 result;
   result.matrix() = m.topRows<3>();
-  return result;
-}
-
-/// The TRS form of a matrix; none when its columns are not orthogonal or some of them vanish.
-std::optional<Transform> to_trs(const Affine3& matrix) {
-  Transform result;
-  result.translation = matrix.translation();
-  result.scale = matrix.linear().colwise().norm().transpose();
-  if (result.scale.isZero(0)) return result;
-  if (!(result.scale.minCoeff() > 0)) return std::nullopt;
-  if (matrix.linear().determinant() < 0) result.scale.x() *= -1;
-  const Mat3 turn = matrix.linear() * result.scale.cwiseInverse().asDiagonal();
-  if (!(turn.transpose() * turn).isApprox(Mat3::Identity(), kOrthogonal)) return std::nullopt;
-  result.rotation = Quat(turn).normalized();
   return result;
 }
 
@@ -103,9 +90,9 @@ class NodeReader {
   static void read_matrix(const JsonPlace& place, RawScene::Node& node) {
     const auto numbers = place.numbers(16);
     const Affine3 matrix = affine(numbers.data(), place, "the matrix");
-    const auto transform = to_trs(matrix);
-    if (!transform) place.fail("the matrix has no form translation * rotation * scale");
-    node.local = *transform;
+    const TrsForm form = to_trs(matrix);
+    if (form.error > kShear) place.fail("the matrix has no form translation * rotation * scale");
+    node.local = form.transform;
   }
 
   void link_children(std::size_t parent) {
