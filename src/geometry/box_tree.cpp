@@ -154,15 +154,6 @@ class Builder {
 
 }  // namespace
 
-BoxTree::Lanes BoxTree::distances2(const Node& node, const Vec3& p) {
-  Lanes sum = Lanes::Zero();
-  for (int axis = 0; axis < 3; ++axis) {
-    const Lanes outside = (node.low[axis] - p[axis]).max(p[axis] - node.high[axis]).max(0.0);
-    sum += outside * outside;
-  }
-  return sum;
-}
-
 BoxTree build_box_tree(std::span<const Box3> boxes, int leaf_size) {
   return Builder(boxes, leaf_size).build();
 }

@@ -37,7 +37,14 @@ struct BoxTree {
   std::vector<std::int32_t> order;  ///< item numbers, leaf after leaf
 
   /// Squared distance from `p` to each child's box, 0 inside; huge for absent children.
-  static Lanes distances2(const Node& node, const Vec3& p);
+  static Lanes distances2(const Node& node, const Vec3& p) {
+    Lanes sum = Lanes::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Lanes outside = (node.low[axis] - p[axis]).max(p[axis] - node.high[axis]).max(0.0);
+      sum += outside * outside;
+    }
+    return sum;
+  }
 };
 
 /// Builds the tree over boxes by the binned surface area heuristic along the longest axis of the centres

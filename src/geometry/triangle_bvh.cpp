@@ -23,6 +23,22 @@ Box3 box_of(const TriangleCorners& t) {
   return box;
 }
 
+// A ball around a triangle: most triangles of a leaf are farther than the best so far, and this shows it
+// cheaply.
+struct Ball {
+  Vec3 centre;
+  double radius;
+
+  explicit Ball(const TriangleCorners& t) : centre((t[0] + t[1] + t[2]) / 3), radius(0) {
+    for (const Vec3& corner : t) radius = std::max(radius, (corner - centre).norm());
+  }
+  bool is_beyond(const Vec3& p, double distance) const {
+    constexpr double kSlack = 1 + 1e-12;  // ours: some roundings
+    const double reach = (distance + radius) * kSlack;
+    return (p - centre).squaredNorm() > reach * reach;
+  }
+};
+
 // A child to visit and the distance at which it begins.
 struct Visit {
   double at = 0;
@@ -88,6 +104,7 @@ BoxTree::Lanes entries(const BoxTree::Node& node, const Ray& ray) {
 struct TriangleBvh::Impl {
   BoxTree tree;
   std::vector<TriangleCorners> corners;      // in the order of the tree's leaves
+  std::vector<Ball> balls;                   // likewise
   std::vector<std::int32_t> place_of;        // of each triangle given, in that order
   std::vector<std::uint8_t> degenerate;      // likewise: 1 for a triangle without a plane
   std::vector<WindingExpansion> expansions;  // one per node
@@ -108,6 +125,7 @@ struct TriangleBvh::Impl {
     place_of.resize(given.size());
     for (std::size_t place = 0; place < given.size(); ++place)
       place_of[tree.order[place]] = static_cast<std::int32_t>(place);
+    for (const TriangleCorners& t : corners) balls.emplace_back(t);
     for (const TriangleCorners& t : corners) degenerate.push_back(is_degenerate(t) ? 1 : 0);
     expand();
   }
@@ -188,8 +206,9 @@ struct TriangleBvh::Impl {
   // The nearest of `best` so far and all triangles no farther than sqrt(limit2).
   ClosestPoint closest(const Vec3& query, double limit2, ClosestPoint best) const {
     const auto visit_leaf = [&](BoxTree::Child leaf, double least2) {
+      const double least = std::sqrt(least2);
       for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
-        least2 = improve(best, query, i, least2);
+        if (!balls[i].is_beyond(query, least)) least2 = improve(best, query, i, least2);
       return least2;
     };
     nearest_first(
