@@ -28,8 +28,12 @@ class Import final : public Stage {
     return info;
   }
 
-  // Names of files are part of the key: they stand in issues, and choose the reader.
-  void add_to_key(Hasher& key) const override { key.add_value("files", parameters_.file_names); }
+  // Names of files are part of the key: they stand in issues, and choose the reader. So is the input's name:
+  // the character bears it.
+  void add_to_key(Hasher& key) const override {
+    key.add("input", parameters_.input);
+    key.add_value("files", parameters_.file_names);
+  }
 
   void run(const StageInput& in, StageOutput& out, IssueSink& issues) const override {
     std::size_t next = 0;
