@@ -68,6 +68,18 @@ std::vector<std::array<std::int32_t, 5>> neighbourhoods(const FrameSteps& steps)
   return all;
 }
 
+// Sum of weight * |w| per frame: the similarity to the identity, which is every joint's usual stance.
+void add_stance_similarities(std::span<const float> rotations, std::span<const float> weights,
+                             std::span<float> sums) {
+  for (std::size_t f = 0; f < sums.size(); ++f)
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      sums[f] += weights[j] * std::abs(rotations[(f * weights.size() + j) * 4 + 3]);
+}
+
+void turn_into_distances(float total, std::span<float> similarities) {
+  for (float& s : similarities) s = std::clamp(1 - s / total, 0.0F, 1.0F);
+}
+
 }  // namespace
 
 FrameSteps frame_steps(const MotionSet& set) {
@@ -121,35 +133,33 @@ void RotationTable::add_similarities(std::span<const float> query, std::span<flo
 
 DistanceTable keyframe_distances(std::span<const MotionPair> pairs, std::size_t first, std::size_t count) {
   SF_EXPECT(!pairs.empty());
-  DistanceTable table{count, pairs.front().candidate->poses.size(), {}};
+  DistanceTable table{count, pairs.front().candidate->poses.size(), {}, {}, {}};
   table.values.assign(table.frames * table.candidates, 0.0F);
-  if (table.candidates == 0) return table;
-
-  struct Prepared {
-    RotationTable candidates;
-    std::vector<float> queries;
-    std::size_t joints;
-  };
-  std::vector<Prepared> prepared;
+  table.frame_stance.assign(table.frames, 0.0F);
+  table.candidate_stance.assign(table.candidates, 0.0F);
   float total = 0;
+  std::vector<float> sums;
   for (const MotionPair& pair : pairs) {
     const SharedJoints shared = shared_joints(pair);
     if (shared.joints.empty()) continue;
-    prepared.push_back(
-        {RotationTable(gather(*pair.candidate, 0, table.candidates, shared.joints), shared.weights),
-         gather(*pair.driver, first, count, shared.joints), shared.joints.size()});
+    const auto candidates = gather(*pair.candidate, 0, table.candidates, shared.joints);
+    const auto queries = gather(*pair.driver, first, count, shared.joints);
+    const RotationTable packed(candidates, shared.weights);
+    const std::size_t stride = shared.joints.size() * 4;
+    for (std::size_t f = 0; f < count; ++f) {
+      sums.assign(packed.padded_count(), 0.0F);
+      packed.add_similarities(std::span(queries).subspan(f * stride, stride), sums);
+      const auto row = table.row(f);
+      for (std::size_t c = 0; c < row.size(); ++c) row[c] += sums[c];
+    }
+    add_stance_similarities(queries, shared.weights, table.frame_stance);
+    add_stance_similarities(candidates, shared.weights, table.candidate_stance);
     for (const float weight : shared.weights) total += weight;
   }
-  if (prepared.empty()) return table;
-
-  std::vector<float> sums(prepared.front().candidates.padded_count());
-  for (std::size_t f = 0; f < count; ++f) {
-    std::fill(sums.begin(), sums.end(), 0.0F);
-    for (const Prepared& p : prepared)
-      p.candidates.add_similarities(std::span(p.queries).subspan(f * p.joints * 4, p.joints * 4), sums);
-    const auto row = table.row(f);
-    for (std::size_t c = 0; c < row.size(); ++c) row[c] = std::clamp(1 - sums[c] / total, 0.0F, 1.0F);
-  }
+  if (total == 0) return table;
+  turn_into_distances(total, table.values);
+  turn_into_distances(total, table.frame_stance);
+  turn_into_distances(total, table.candidate_stance);
   return table;
 }
 
@@ -158,7 +168,8 @@ DistanceTable windowed(const DistanceTable& distances, const FrameSteps& driver_
   const auto rows = neighbourhoods(driver_steps), columns = neighbourhoods(candidate_steps);
   SF_EXPECT(rows.size() == distances.frames && columns.size() == distances.candidates);
   const float total = kWindow[0] + 2 * kWindow[1] + 2 * kWindow[2];
-  DistanceTable result{distances.frames, distances.candidates, {}};
+  DistanceTable result{
+      distances.frames, distances.candidates, {}, distances.frame_stance, distances.candidate_stance};
   result.values.assign(distances.values.size(), 0.0F);
   for (std::size_t f = 0; f < distances.frames; ++f) {
     const auto sums = result.row(f);

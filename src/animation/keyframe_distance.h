@@ -13,6 +13,8 @@ struct DistanceTable {
   std::size_t frames = 0;
   std::size_t candidates = 0;
   std::vector<float> values;
+  std::vector<float> frame_stance;  ///< #frames: distance of each from the usual stance (all joints at rest)
+  std::vector<float> candidate_stance;  ///< #candidates, likewise
 
   std::span<const float> row(std::size_t frame) const {
     return {values.data() + frame * candidates, candidates};

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include "base/expect.h"
 
@@ -13,22 +13,18 @@ namespace {
 constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr std::size_t kJumpOrigins = 24;  // ours: cheapest keyframes that a jump may leave from
 constexpr int kPlayedBeforeHold = 10;     // ours: frames; a third of a second at 30 Hz
+constexpr std::size_t kFreeFrames = 60;   // ours: a free search of two seconds forgets its ends
 constexpr std::size_t kBlock = 8;
 using Block = Eigen::Array<float, kBlock, 1>;
 
-// One frame of the search: for each candidate the cheapest way to it.
+// One frame of the search: for each candidate the cheapest way to it. One slot more, never reached, stands
+// for "none".
 struct Layer {
   std::vector<float> cost;
-  std::vector<std::int32_t> from;
   std::vector<PathStep> step;
+  std::vector<std::int32_t> origin;  // of a Jump
 
-  explicit Layer(std::size_t n) : cost(n, kNever), from(n, -1), step(n, PathStep::Next) {}
-  void offer(std::size_t to, std::size_t origin, PathStep how, float total) {
-    if (total >= cost[to]) return;
-    cost[to] = total;
-    from[to] = static_cast<std::int32_t>(origin);
-    step[to] = how;
-  }
+  explicit Layer(std::size_t n) : cost(n + 1, kNever), step(n + 1, PathStep::Next), origin(n + 1, -1) {}
 };
 
 class Search {
@@ -41,113 +37,128 @@ class Search {
   KeyframePath run(std::span<const std::size_t> frames, std::int32_t fixed) const;
 
  private:
+  void find_entries(const FrameSteps& steps, bool may_stay);
   Layer first_layer(std::size_t frame, std::int32_t fixed) const;
   Layer next_layer(const Layer& before, std::size_t frame) const;
-  void step_on(const Layer& before, std::size_t to, Layer& layer) const;
+  void step_on(const Layer& before, Layer& layer) const;
   void jump_on(const Layer& before, Layer& layer) const;
   void land(std::size_t origin, float base, Layer& layer) const;
-  float dearest_of(const Layer& layer) const;
+  std::size_t before(std::size_t candidate, const Layer& layer) const;
 
   const DistanceTable& distances_;
-  const FrameSteps& steps_;
-  const std::vector<bool>& allowed_;
   const LandingCosts& landing_;
   PathCosts costs_;
-  bool may_stay_;
-  std::vector<bool> may_enter_;  // by a jump, or as the first keyframe
+  std::size_t n_;
+  std::vector<std::uint8_t> allowed_;
+  std::vector<std::uint8_t> may_enter_;       // by a jump, or as the first keyframe
+  std::vector<std::uint8_t> may_stay_;        // ends of clips, where a Hold may follow a Hold
+  std::vector<std::size_t> before_, second_;  // one and two natural steps back, or n_
 };
 
 Search::Search(const DistanceTable& distances, const FrameSteps& steps, const std::vector<bool>& allowed,
                const LandingCosts& landing, const PathCosts& costs, bool may_stay)
     : distances_(distances),
-      steps_(steps),
-      allowed_(allowed),
       landing_(landing),
       costs_(costs),
-      may_stay_(may_stay),
-      may_enter_(allowed) {
-  if (!may_stay) return;
-  for (std::size_t c = 0; c < allowed.size(); ++c) {
+      n_(distances.candidates),
+      allowed_(allowed.begin(), allowed.end()),
+      may_enter_(allowed_),
+      may_stay_(n_, 0) {
+  for (const std::int32_t previous : steps.previous)
+    before_.push_back(previous < 0 ? n_ : static_cast<std::size_t>(previous));
+  for (const std::size_t previous : before_) second_.push_back(previous == n_ ? n_ : before_[previous]);
+  find_entries(steps, may_stay);
+}
+
+// The last frames of a clip that ends may only be reached by playing.
+void Search::find_entries(const FrameSteps& steps, bool may_stay) {
+  for (std::size_t c = 0; may_stay && c < n_; ++c) {
     if (steps.next[c] >= 0) continue;
-    auto near_end = static_cast<std::int32_t>(c);
-    for (int k = 0; k < kPlayedBeforeHold && near_end >= 0; ++k) {
-      may_enter_[static_cast<std::size_t>(near_end)] = false;
-      near_end = steps.previous[static_cast<std::size_t>(near_end)];
-    }
+    may_stay_[c] = 1;
+    std::size_t near_end = c;
+    for (int k = 0; k < kPlayedBeforeHold && near_end != n_; ++k, near_end = before_[near_end])
+      may_enter_[near_end] = 0;
   }
-  if (std::find(may_enter_.begin(), may_enter_.end(), true) == may_enter_.end()) may_enter_ = allowed;
+  if (std::find(may_enter_.begin(), may_enter_.end(), 1) == may_enter_.end()) may_enter_ = allowed_;
 }
 
 Layer Search::first_layer(std::size_t frame, std::int32_t fixed) const {
-  Layer layer(distances_.candidates);
-  for (std::size_t c = 0; c < distances_.candidates; ++c)
+  Layer layer(n_);
+  for (std::size_t c = 0; c < n_; ++c)
     if (fixed < 0 ? may_enter_[c] : static_cast<std::size_t>(fixed) == c)
       layer.cost[c] = distances_.row(frame)[c];
   return layer;
 }
 
 // The ways that follow a clip: natural successor, hold, double speed.
-void Search::step_on(const Layer& before, std::size_t to, Layer& layer) const {
-  if (steps_.previous[to] >= 0) {
-    const auto previous = static_cast<std::size_t>(steps_.previous[to]);
-    layer.offer(to, previous, PathStep::Next, before.cost[previous]);
-    if (steps_.previous[previous] >= 0) {
-      const auto second = static_cast<std::size_t>(steps_.previous[previous]);
-      layer.offer(to, second, PathStep::Skip, before.cost[second] + costs_.tempo);
-    }
+void Search::step_on(const Layer& before, Layer& layer) const {
+  for (std::size_t c = 0; c < n_; ++c) {
+    if (!allowed_[c]) continue;
+    float best = before.cost[before_[c]];
+    PathStep step = PathStep::Next;
+    const float skip = before.cost[second_[c]] + costs_.tempo;
+    step = skip < best ? PathStep::Skip : step;
+    best = std::min(best, skip);
+    const bool may_hold = before.step[c] != PathStep::Hold || may_stay_[c];
+    const float hold = may_hold ? before.cost[c] + costs_.tempo : kNever;
+    layer.step[c] = hold < best ? PathStep::Hold : step;
+    layer.cost[c] = std::min(best, hold);
   }
-  const bool at_end = may_stay_ && steps_.next[to] < 0;
-  if (before.step[to] != PathStep::Hold || at_end)
-    layer.offer(to, to, PathStep::Hold, before.cost[to] + costs_.tempo);
-}
-
-float Search::dearest_of(const Layer& layer) const {
-  float dearest = -kNever;
-  for (std::size_t c = 0; c < layer.cost.size(); ++c)
-    if (may_enter_[c]) dearest = std::max(dearest, layer.cost[c]);
-  return dearest;
 }
 
 void Search::land(std::size_t origin, float base, Layer& layer) const {
   const auto landing = landing_(static_cast<std::int32_t>(origin));
-  const std::size_t n = layer.cost.size();
-  for (std::size_t block = 0; block < n; block += kBlock) {
-    if (block + kBlock <= n) {  // most blocks have nothing to gain
-      const Block totals = base + Eigen::Map<const Block>(landing.data() + block);
-      if (!(totals < Eigen::Map<const Block>(layer.cost.data() + block)).any()) continue;
+  for (std::size_t block = 0; block < n_; block += kBlock) {
+    if (block + kBlock <= n_) {  // most blocks have nothing to gain
+      const Block gain = Eigen::Map<const Block>(layer.cost.data() + block) - base -
+                         Eigen::Map<const Block>(landing.data() + block);
+      if (!(gain.maxCoeff() > 0)) continue;
     }
-    for (std::size_t t = block; t < std::min(n, block + kBlock); ++t)
-      if (may_enter_[t]) layer.offer(t, origin, PathStep::Jump, base + landing[t]);
+    for (std::size_t t = block; t < std::min(n_, block + kBlock); ++t) {
+      const float total = base + landing[t];
+      if (!may_enter_[t] || total >= layer.cost[t]) continue;
+      layer.cost[t] = total;
+      layer.step[t] = PathStep::Jump;
+      layer.origin[t] = static_cast<std::int32_t>(origin);
+    }
   }
 }
 
 void Search::jump_on(const Layer& before, Layer& layer) const {
-  std::vector<std::size_t> origins(before.cost.size());
-  std::iota(origins.begin(), origins.end(), std::size_t{0});
+  float dearest = -kNever;
+  for (std::size_t c = 0; c < n_; ++c)
+    if (may_enter_[c]) dearest = std::max(dearest, layer.cost[c]);
+  std::vector<std::pair<float, std::size_t>> origins;
+  for (std::size_t c = 0; c < n_; ++c)
+    if (before.cost[c] + costs_.jump < dearest) origins.push_back({before.cost[c], c});
   const std::size_t count = std::min(kJumpOrigins, origins.size());
-  std::partial_sort(origins.begin(), origins.begin() + static_cast<std::ptrdiff_t>(count), origins.end(),
-                    [&](std::size_t a, std::size_t b) {
-                      return before.cost[a] != before.cost[b] ? before.cost[a] < before.cost[b] : a < b;
-                    });
-  origins.resize(count);
-  for (const std::size_t origin : origins) {
-    const float base = before.cost[origin] + costs_.jump;
-    if (!(base < dearest_of(layer))) break;  // nothing is left to gain from dearer origins
-    land(origin, base, layer);
-  }
+  const auto middle = origins.begin() + static_cast<std::ptrdiff_t>(count);
+  if (middle != origins.end()) std::nth_element(origins.begin(), middle, origins.end());
+  std::sort(origins.begin(), middle);
+  for (std::size_t k = 0; k < count; ++k) land(origins[k].second, origins[k].first + costs_.jump, layer);
 }
 
 Layer Search::next_layer(const Layer& before, std::size_t frame) const {
-  Layer layer(distances_.candidates);
-  for (std::size_t c = 0; c < distances_.candidates; ++c) {
-    if (allowed_[c]) step_on(before, c, layer);
-    if (!may_enter_[c] && layer.cost[c] == kNever) layer.cost[c] = -kNever;  // no jump comes here
-  }
+  Layer layer(n_);
+  step_on(before, layer);
   jump_on(before, layer);
   const auto row = distances_.row(frame);
-  for (std::size_t c = 0; c < distances_.candidates; ++c)
-    layer.cost[c] = layer.cost[c] == -kNever ? kNever : layer.cost[c] + row[c];
+  for (std::size_t c = 0; c < n_; ++c) layer.cost[c] += row[c];
   return layer;
+}
+
+std::size_t Search::before(std::size_t candidate, const Layer& layer) const {
+  switch (layer.step[candidate]) {
+    case PathStep::Next:
+      return before_[candidate];
+    case PathStep::Skip:
+      return second_[candidate];
+    case PathStep::Hold:
+      return candidate;
+    case PathStep::Jump:
+      return static_cast<std::size_t>(layer.origin[candidate]);
+  }
+  return candidate;
 }
 
 KeyframePath Search::run(std::span<const std::size_t> frames, std::int32_t fixed) const {
@@ -156,14 +167,36 @@ KeyframePath Search::run(std::span<const std::size_t> frames, std::int32_t fixed
   const std::vector<float>& last = layers.back().cost;
   auto c = fixed >= 0 ? static_cast<std::size_t>(fixed)
                       : static_cast<std::size_t>(std::min_element(last.begin(), last.end()) - last.begin());
+  SF_EXPECT(last[c] < kNever);
   KeyframePath path;
   for (std::size_t k = frames.size(); k-- > 0;) {
     path.candidates.push_back(static_cast<std::int32_t>(c));
     path.steps.push_back(layers[k].step[c]);
-    if (k > 0) c = static_cast<std::size_t>(layers[k].from[c]);
+    if (k > 0) c = before(c, layers[k]);
   }
   std::reverse(path.candidates.begin(), path.candidates.end());
   std::reverse(path.steps.begin(), path.steps.end());
+  return path;
+}
+
+// Frames of a lap that starts at `start`, `count` of them.
+std::vector<std::size_t> lap(std::size_t frames, std::size_t start, std::size_t count) {
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < count; ++k) all.push_back((start + k) % frames);
+  return all;
+}
+
+// Free search first, then one lap from the keyframe found in its middle back to itself.
+KeyframePath closed_path(const Search& search, std::size_t frames) {
+  const std::size_t free_count = std::max(frames, std::min(2 * frames, kFreeFrames));
+  const std::size_t middle = free_count / 2;
+  const KeyframePath free = search.run(lap(frames, 0, free_count), -1);
+  const KeyframePath closed = search.run(lap(frames, middle, frames + 1), free.candidates[middle]);
+  KeyframePath path{std::vector<std::int32_t>(frames), std::vector<PathStep>(frames)};
+  for (std::size_t k = 1; k <= frames; ++k) {
+    path.candidates[(middle + k) % frames] = closed.candidates[k];
+    path.steps[(middle + k) % frames] = closed.steps[k];
+  }
   return path;
 }
 
@@ -174,19 +207,8 @@ KeyframePath best_path(const DistanceTable& distances, const FrameSteps& steps,
                        const PathCosts& costs) {
   SF_EXPECT(std::find(allowed.begin(), allowed.end(), true) != allowed.end());
   const Search search(distances, steps, allowed, landing, costs, !is_loop);
-  std::vector<std::size_t> lap(distances.frames);
-  std::iota(lap.begin(), lap.end(), std::size_t{0});
-  if (!is_loop) return search.run(lap, -1);
-
-  std::vector<std::size_t> two_laps = lap;
-  two_laps.insert(two_laps.end(), lap.begin(), lap.end());
-  const std::int32_t middle = search.run(two_laps, -1).candidates[distances.frames];
-  lap.push_back(0);
-  KeyframePath path = search.run(lap, middle);
-  path.steps.front() = path.steps.back();
-  path.steps.pop_back();
-  path.candidates.pop_back();
-  return path;
+  return is_loop ? closed_path(search, distances.frames)
+                 : search.run(lap(distances.frames, 0, distances.frames), -1);
 }
 
 KeyframePath best_frames(const DistanceTable& distances, const FrameSteps& steps,

@@ -26,7 +26,7 @@ struct KeyframePath {
 /// What moving along a path costs, in units of the keyframe distance.
 struct PathCosts {
   float tempo = 0.002F;  ///< a Hold or Skip; ours, see completion.md
-  float jump = 0.4F;     ///< a Jump; ours, see completion.md
+  float jump = 0.8F;     ///< a Jump; ours, see completion.md
 };
 
 /// What landing on each keyframe costs a jump that leaves from `from`: 0 = nobody will notice. The span stays

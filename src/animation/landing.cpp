@@ -8,25 +8,25 @@
 namespace skinforge {
 namespace {
 
-constexpr double kTurning = 0.01;         // radians; ours: as much as a still clip may have
-constexpr float kLandingWeight = 2;       // ours: completion.md
+constexpr double kTurningDot =
+    1 - 1.25e-5;                     // cosine of half of 0.01 radians; ours: as much as a still clip may have
+constexpr float kLandingWeight = 2;  // ours: completion.md
 constexpr std::size_t kMostTurning = 16;  // ours: more joints dilute a jolt and cost time
 constexpr double kWandering = 0.01;       // ours: of the extent; less is a breathing joint, not a walk
 
 // The joints that turn farthest from the first frame, farthest first.
 std::vector<JointId> turning_joints(const MotionSet& set, std::span<const JointId> joints) {
-  std::vector<std::pair<double, JointId>> turning;
+  std::vector<std::pair<double, JointId>> turning;  // by |q . q'|, which falls as the angle grows
   for (const JointId j : joints) {
-    double farthest = 0;
-    for (const Pose& pose : set.poses)
-      farthest =
-          std::max(farthest, pose[j.index()].rotation.angularDistance(set.poses.front()[j.index()].rotation));
-    if (farthest > kTurning) turning.push_back({-farthest, j});
+    double least = 1;
+    const Quat& first = set.poses.front()[j.index()].rotation;
+    for (const Pose& pose : set.poses) least = std::min(least, std::abs(first.dot(pose[j.index()].rotation)));
+    if (least < kTurningDot) turning.push_back({least, j});
   }
   std::sort(turning.begin(), turning.end());
   turning.resize(std::min(turning.size(), kMostTurning));
   std::vector<JointId> result;
-  for (const auto& [angle, j] : turning) result.push_back(j);
+  for (const auto& [dot, j] : turning) result.push_back(j);
   return result;
 }
 

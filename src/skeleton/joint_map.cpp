@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kUnusedBonus = 0.5;     // Sec. 5.1: the candidate has not been selected yet
 constexpr double kUncertainBonus = 0.1;  // Sec. 5.1: selected, but with confidence below 1
-constexpr double kNameBonus = 0.5;       // ours: the same name in both inputs; joint_map.md
+constexpr double kNameBonus = 0.5;       // ours: the same name near the image; joint_map.md
+constexpr int kNameHops = 2;
 
 // An unmapped joint beside a mapped one, with its similarity to every result joint.
 struct OpenStep {
@@ -72,7 +73,8 @@ double MapBuilder::preference(const OpenStep& open, std::size_t candidate) const
     bonus = kUnusedBonus;
   else if (highest_[candidate] < 1)
     bonus = kUncertainBonus;
-  if (skeleton_[open.step.joint].name == result_names_[candidate]) bonus += kNameBonus;
+  const bool near = result_.hops(JointId(candidate), open.step.image) <= kNameHops;
+  if (near && skeleton_[open.step.joint].name == result_names_[candidate]) bonus += kNameBonus;
   return open.similarity[candidate] + bonus;
 }
 

@@ -120,7 +120,7 @@ TEST(CompleteClip, LoopsStayLoops) {
 // Law: completing with oneself gives oneself. The same character twice; the copy's chosen keyframes are the
 // clip's own.
 TEST(CompleteClip, CompletingWithOneselfGivesOneself) {
-  const Mixture m({host(), host()}, {{GraftKind::Attach, {"h3"}, 1, "h4", {}}});
+  const Mixture m({host(), host()}, {{GraftKind::Replace, {"h4"}, 1, "h4", {}}});
   for (std::size_t c = 0; c < 2; ++c) {
     const CompletedClip done = m.complete(0, c);
     for (const auto& choice : done.record.choices) {

@@ -62,7 +62,7 @@ TEST(KeyframeDistance, NothingInCommonIsNoDistance) {
 // against 1. Distances along the diagonal of time: 0 at the middle, 0.5 before and after; the second step
 // holds the ends.
 TEST(KeyframeDistance, WindowAddsNeighbours) {
-  DistanceTable table{3, 3, {0.5F, 1, 1, 1, 0, 1, 1, 1, 0.5F}};
+  DistanceTable table{3, 3, {0.5F, 1, 1, 1, 0, 1, 1, 1, 0.5F}, {}, {}};
   const MotionSet set = turning({0, 0, 0});
   const FrameSteps steps = frame_steps(set);
   EXPECT_NEAR(windowed(table, steps, steps).row(1)[1], (0.2 * (0.5 + 0.5) + 0.1 * (0.5 + 0.5)) / 1.6, kFloat);
