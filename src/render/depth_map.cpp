@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/four.h"
+
 namespace skinforge {
 namespace {
 
@@ -66,20 +68,17 @@ void DepthMap::draw(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
 // Percentage-closer filtering: a box 3 texels wide that slides with the point, so 4 x 4 texels with bilinear
 // weights.
 float DepthMap::filtered(const Vec3f& p, const std::vector<float>& depth, float sign) const {
-  constexpr std::size_t kTaps = 4;
   const Vec3f q = in_map(p);
   const float corner_x = q.x() - 1.5F, corner_y = q.y() - 1.5F;
   const auto limit = static_cast<float>(size_ - 4);
   if (!(corner_x >= 0 && corner_x < limit && corner_y >= 0 && corner_y < limit)) return 1;
   const int x0 = static_cast<int>(corner_x), y0 = static_cast<int>(corner_y);
   const float fx = corner_x - static_cast<float>(x0), fy = corner_y - static_cast<float>(y0);
-  const std::array<float, kTaps> wy{1 - fy, 1, 1, fy};
   const float height = sign * q.z() + kBias;
-  std::array<float, kTaps> columns{};
-  for (std::size_t j = 0; j < kTaps; ++j) {
-    const float* row = depth.data() + (static_cast<std::size_t>(y0) + j) * size_ + x0;
-    for (std::size_t i = 0; i < kTaps; ++i) columns[i] += wy[j] * static_cast<float>(row[i] <= height);
-  }
+  const float* texel = depth.data() + static_cast<std::size_t>(y0) * size_ + x0;
+  const FourFloats nothing = {0, 0, 0, 0}, one = {1, 1, 1, 1};
+  const auto lit = [&](int row) { return load_four(texel + row * size_) <= height ? one : nothing; };
+  const FourFloats columns = ((1 - fy) * lit(0) + lit(1)) + (lit(2) + fy * lit(3));
   return ((columns[0] * (1 - fx) + columns[1]) + (columns[2] + columns[3] * fx)) / 9;
 }
 

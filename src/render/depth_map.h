@@ -34,9 +34,10 @@ class DepthMap {
   void draw(const Vec3f& a, const Vec3f& b, const Vec3f& c);
   /// Texel coordinates x, y and height, all in texels.
   Vec3f in_map(const Vec3f& p) const {
-    const Vec3f q = scale_ * (p - center_);
-    const float half = 0.5F * static_cast<float>(size_);
-    return {q.dot(right_) + half, q.dot(up_) + half, q.dot(back_)};
+    const float x = scale_ * (p.x() - center_.x()), y = scale_ * (p.y() - center_.y());
+    const float z = scale_ * (p.z() - center_.z()), half = 0.5F * static_cast<float>(size_);
+    return {right_.x() * x + right_.y() * y + right_.z() * z + half,
+            up_.x() * x + up_.y() * y + up_.z() * z + half, back_.x() * x + back_.y() * y + back_.z() * z};
   }
   float filtered(const Vec3f& p, const std::vector<float>& depth, float sign) const;
 

@@ -15,14 +15,15 @@ namespace skinforge {
 namespace {
 
 // All numbers of this block are ours, chosen by eye.
-const Vec3f kBackdropTop = rgb_color(0xF7, 0xF8, 0xFA).cast<float>();
-const Vec3f kBackdropBottom = rgb_color(0xDC, 0xE1, 0xE8).cast<float>();
+const Vec3f kBackdropTop = rgb_color(0xEF, 0xF2, 0xF6).cast<float>();
+const Vec3f kBackdropBottom = rgb_color(0xC6, 0xCE, 0xD9).cast<float>();
 const Vec3f kWireColor = rgb_color(0x1B, 0x24, 0x33).cast<float>();
 constexpr float kWireStrength = 0.78F;
 constexpr double kWireHalfWidth = 0.55;  // pixels
 constexpr double kShadowTexelsPerPixel = 0.8;
-// Neighbouring points of 2 x 2 pixels share their shadows when this near (pixels) and this alike (cosine).
-constexpr float kSharedPixels = 2.5F, kSharedCosine = 0.95F;
+// Neighbouring points of 2 x 2 pixels share their view of the sky when this near (pixels) and this alike
+// (cosine).
+constexpr float kSharedPixels = 2.5F, kSharedCosine = 0.995F;
 
 std::vector<Vec3f> to_float(std::span<const Vec3> values) {
   std::vector<Vec3f> result(values.size());
@@ -62,11 +63,11 @@ void set_pixel(Raster& raster, int x, int y, const Vec3f& color) {
   pixel[3] = 255;
 }
 
-/// Shadows found for 2 x 2 pixels, shared by the triangles that meet there.
-struct SharedExposure {
+/// Share of the sky found for 2 x 2 pixels, shared by the triangles that meet there.
+struct SharedSky {
   bool is_known = false;
   Vec3f position, normal;
-  Exposure exposure;
+  float light = 1;
 };
 
 /// Samples of one pixel that belong to one triangle.
@@ -101,14 +102,13 @@ class Painter {
   void paint_tile(int x0, int y0, std::span<const std::int32_t> triangles, Raster& raster) const;
   void paint_backdrop(int x0, int y0, Raster& raster) const;
   void draw(VisibilityTile& tile, std::int32_t viewed) const;
-  Vec3f pixel_color(const std::array<std::int32_t, kSamples>& owners, int x, int y,
-                    SharedExposure& shared) const;
-  Vec3f fragment_color(const Fragment& fragment, SharedExposure& shared) const;
+  Vec3f pixel_color(const std::array<std::int32_t, kSamples>& owners, int x, int y, SharedSky& shared) const;
+  Vec3f fragment_color(const Fragment& fragment, SharedSky& shared) const;
   Vec3f backdrop(double x, double y) const;
   SubjectPoint point_at(const ViewedTriangle& viewed, double x, double y) const;
   Vec3f normal_at(const ViewedTriangle& viewed, const SubjectPoint& point, const Vec3f& to_eye) const;
   float wire_at(const ViewedTriangle& viewed, double x, double y) const;
-  const Exposure& exposure(const SurfacePoint& point, SharedExposure& shared) const;
+  float sky_light(const SurfacePoint& point, SharedSky& shared) const;
 
   const Subject& subject_;
   const DrawOptions& options_;
@@ -140,7 +140,7 @@ Raster Painter::paint() const {
 void Painter::paint_tile(int x0, int y0, std::span<const std::int32_t> triangles, Raster& raster) const {
   VisibilityTile tile(x0, y0, projection_.near);
   for (const std::int32_t viewed : triangles) draw(tile, viewed);
-  std::array<SharedExposure, VisibilityTile::kEdge / 2> shared;
+  std::array<SharedSky, VisibilityTile::kEdge / 2> shared;
   for (int y = y0; y < std::min(y0 + VisibilityTile::kEdge, raster.height); ++y) {
     if (y % 2 == 0) shared.fill({});
     for (int x = x0; x < std::min(x0 + VisibilityTile::kEdge, raster.width); ++x)
@@ -166,7 +166,7 @@ void Painter::draw(VisibilityTile& tile, std::int32_t index) const {
 }
 
 Vec3f Painter::pixel_color(const std::array<std::int32_t, kSamples>& owners, int x, int y,
-                           SharedExposure& shared) const {
+                           SharedSky& shared) const {
   const double cx = x + 0.5, cy = y + 0.5;
   if (std::all_of(owners.begin(), owners.end(), [&](std::int32_t o) { return o == owners[0]; }))
     return fragment_color({owners[0], kSamples, cx, cy}, shared);
@@ -190,7 +190,7 @@ Vec3f Painter::pixel_color(const std::array<std::int32_t, kSamples>& owners, int
   return sum / kSamples;
 }
 
-Vec3f Painter::fragment_color(const Fragment& fragment, SharedExposure& shared) const {
+Vec3f Painter::fragment_color(const Fragment& fragment, SharedSky& shared) const {
   if (fragment.viewed == VisibilityTile::kNone) return backdrop(fragment.x, fragment.y);
   const ViewedTriangle& viewed = viewed_[fragment.viewed];
   const SubjectPoint at = point_at(viewed, fragment.x, fragment.y);
@@ -204,7 +204,7 @@ Vec3f Painter::fragment_color(const Fragment& fragment, SharedExposure& shared) 
   if (!viewed.screen.is_front && !subject_.material_of(face).double_sided)
     finish = {.albedo = options_.back_face_color->cast<float>()};
   const Vec3f color = finish.is_unlit ? Vec3f(finish.albedo + finish.emissive)
-                                      : lighting_.shade(point, finish, exposure(point, shared));
+                                      : lighting_.shade(point, finish, sky_light(point, shared));
   const float wire = options_.wireframe ? wire_at(viewed, fragment.x, fragment.y) : 0;
   return color + wire * (kWireColor - color);
 }
@@ -237,14 +237,14 @@ float Painter::wire_at(const ViewedTriangle& viewed, double x, double y) const {
   return kWireStrength * strongest;
 }
 
-const Exposure& Painter::exposure(const SurfacePoint& point, SharedExposure& shared) const {
+float Painter::sky_light(const SurfacePoint& point, SharedSky& shared) const {
   const float pixel = pixel_slope_ * (eye_ - point.position).norm();
   const bool can_share = shared.is_known &&
                          (point.position - shared.position).norm() < kSharedPixels * pixel &&
                          point.normal.dot(shared.normal) > kSharedCosine;
   if (!can_share)
-    shared = {true, point.position, point.normal, lighting_.exposure(point.position, point.normal)};
-  return shared.exposure;
+    shared = {true, point.position, point.normal, lighting_.sky_light(point.position, point.normal)};
+  return shared.light;
 }
 
 Vec3f Painter::backdrop(double x, double y) const {

@@ -16,9 +16,10 @@ constexpr float kFloorReach = 2.6F;  // half edge of that map, in radii of the c
 constexpr float kFloorStrength = 0.80F;
 constexpr float kFloorSkyShare = 0.55F;  // of the light on open floor
 constexpr int kFloorBlur = 3;  // texels to each side: melts the few sky directions into one soft shadow
-const Vec3f kSkyColor(0.66F, 0.70F, 0.76F), kGroundColor(0.40F, 0.38F, 0.37F);
-const Vec3f kKeyColor(0.86F, 0.81F, 0.73F), kFillColor(0.10F, 0.11F, 0.14F), kRimColor(0.36F, 0.38F, 0.42F);
-constexpr float kKeyWrap = 0.12F;  // light reaches a little past the terminator, as from a large lamp
+const Vec3f kSkyColor(0.64F, 0.69F, 0.76F), kGroundColor(0.40F, 0.38F, 0.37F);
+const Vec3f kKeyColor(0.98F, 0.92F, 0.82F), kFillColor(0.10F, 0.11F, 0.14F), kRimColor(0.36F, 0.38F, 0.42F);
+constexpr float kLeastCosine = 0.18F;  // flatter light is too weak for its shadows to matter
+constexpr float kKeyWrap = 0.12F;      // light reaches a little past the terminator, as from a large lamp
 
 Vec3f light_direction(double yaw, double pitch_deg) {
   return ViewAngles{yaw, radians(pitch_deg)}.direction().cast<float>();
@@ -109,36 +110,34 @@ float Lighting::sky_light(const Vec3f& position, const Vec3f& normal) const {
   return all > 0 ? seen / all : 1;
 }
 
+// The receiver is moved off its own surface: along the normal, and towards the lamp as far as a slanted
+// surface rises under the filter's box.
 float Lighting::key_light(const Vec3f& position, const Vec3f& normal) const {
   const float cosine = normal.dot(key_direction_);
   if (cosine <= -kKeyWrap) return 0;
-  const float lift = 1.5F + 3 * (1 - std::max(cosine, 0.0F));  // texels; more where the light grazes
-  return key_->light(position + lift * key_->texel() * normal);
+  const float slope = std::sqrt(std::max(0.0F, 1 - cosine * cosine)) / std::max(cosine, kLeastCosine);
+  return key_->light(position + key_->texel() * (1.5F * normal + 2 * slope * key_direction_));
 }
 
-Exposure Lighting::exposure(const Vec3f& position, const Vec3f& normal) const {
-  return {sky_light(position, normal), key_light(position, normal)};
-}
-
-Vec3f Lighting::shade(const SurfacePoint& point, const Finish& finish, const Exposure& exposure) const {
+Vec3f Lighting::shade(const SurfacePoint& point, const Finish& finish, float sky) const {
   const Vec3f& n = point.normal;
-  const float key = exposure.key * std::max(0.0F, (n.dot(key_direction_) + kKeyWrap) / (1 + kKeyWrap));
+  const float lamp = key_light(point.position, n);
+  const float key = lamp * std::max(0.0F, (n.dot(key_direction_) + kKeyWrap) / (1 + kKeyWrap));
   const float fill = std::max(0.0F, n.dot(fill_direction_));
   const float up = 0.5F + 0.5F * n.y();
-  const Vec3f ambient =
-      (0.25F + 0.75F * exposure.sky) * exposure.sky * (up * kSkyColor + (1 - up) * kGroundColor);
-  const Vec3f light = ambient + key * kKeyColor + (0.3F + 0.7F * exposure.sky) * fill * kFillColor;
+  const Vec3f ambient = (0.25F + 0.75F * sky) * sky * (up * kSkyColor + (1 - up) * kGroundColor);
+  const Vec3f light = ambient + key * kKeyColor + (0.3F + 0.7F * sky) * fill * kFillColor;
 
   const float facing = std::clamp(n.dot(point.to_eye), 0.0F, 1.0F);
   const float edge = (1 - facing) * (1 - facing) * (1 - facing);
   const Vec3f half = (key_direction_ + point.to_eye).normalized();
   const float gloss = 1 - finish.roughness;
-  const float glint = exposure.key * highlight(std::max(0.0F, n.dot(half)), gloss) * (0.25F + 2 * gloss);
+  const float glint = lamp * highlight(std::max(0.0F, n.dot(half)), gloss) * (0.25F + 2 * gloss);
   const Vec3f reflectance = Vec3f::Constant(0.04F * (1 - finish.metallic)) + finish.metallic * finish.albedo;
   const float mirror_up = 0.5F + 0.5F * (2 * n.dot(point.to_eye) * n.y() - point.to_eye.y());
-  const Vec3f mirrored = exposure.sky * (mirror_up * kSkyColor + (1 - mirror_up) * kGroundColor);
+  const Vec3f mirrored = sky * (mirror_up * kSkyColor + (1 - mirror_up) * kGroundColor);
 
-  const float rim = edge * std::max(0.0F, n.dot(rim_direction_) + 0.25F) * exposure.sky;
+  const float rim = edge * std::max(0.0F, n.dot(rim_direction_) + 0.25F) * sky;
   const Vec3f color = (1 - 0.75F * finish.metallic) * finish.albedo.cwiseProduct(light) +
                       reflectance.cwiseProduct(glint * kKeyColor + (0.4F + 0.6F * gloss) * mirrored) +
                       rim * (0.35F * kRimColor + 0.65F * kRimColor.cwiseProduct(finish.albedo)) +

@@ -24,12 +24,6 @@ struct Finish {
   bool is_unlit = false;  ///< shown as albedo + emissive, whatever the light
 };
 
-/// Shadow of the sky and the key light at one point, each in [0, 1].
-struct Exposure {
-  float sky = 1;
-  float key = 1;
-};
-
 /// A photographer's set around a character: a pale sky dome that knows what hides it (shadow maps along a fan
 /// of axes), one warm key light with soft shadows, a weak cool fill and a rim light from behind. The lamps
 /// turn with the camera's yaw, so every view is lit alike. Immutable after construction.
@@ -40,17 +34,18 @@ class Lighting {
   Lighting(std::span<const Vec3f> positions, std::span<const TriangleIndices> triangles, const View& view,
            int detail, std::optional<double> floor);
 
-  Exposure exposure(const Vec3f& position, const Vec3f& normal) const;
+  /// Share of the sky that a point of the surface sees, weighted by how it faces, in [0, 1]. The costly part
+  /// of a shade.
+  float sky_light(const Vec3f& position, const Vec3f& normal) const;
 
-  /// Linear RGB of the surface as seen, soft-limited to [0, 1].
-  Vec3f shade(const SurfacePoint& point, const Finish& finish, const Exposure& exposure) const;
+  /// Linear RGB of the surface as seen, soft-limited to [0, 1]. `sky`: its `sky_light`.
+  Vec3f shade(const SurfacePoint& point, const Finish& finish, float sky) const;
 
   /// Share of light that the floor keeps at the point where the ray meets it, in [0, 1]; 1 where it is
   /// unshaded, far from the character or not met.
   float floor_light(const Vec3f& eye, const Vec3f& ray) const;
 
  private:
-  float sky_light(const Vec3f& position, const Vec3f& normal) const;
   float key_light(const Vec3f& position, const Vec3f& normal) const;
   void light_floor(float height);
   float floor_share(const Vec3f& p, float sky) const;

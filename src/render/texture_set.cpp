@@ -55,12 +55,12 @@ Raster halved(const Raster& image) {
 
 // KHR_texture_transform: scale, then rotation, then offset.
 Vec2f transformed(const TextureRef& ref, const Vec2f& uv) {
-  const float u = uv.x() * static_cast<float>(ref.uv_scale.x());
-  const float v = uv.y() * static_cast<float>(ref.uv_scale.y());
-  const auto c = static_cast<float>(std::cos(ref.uv_rotation)),
-             s = static_cast<float>(std::sin(ref.uv_rotation));
-  return {c * u + s * v + static_cast<float>(ref.uv_offset.x()),
-          -s * u + c * v + static_cast<float>(ref.uv_offset.y())};
+  const Vec2f scaled = uv.cwiseProduct(ref.uv_scale.cast<float>());
+  const Vec2f offset = ref.uv_offset.cast<float>();
+  if (ref.uv_rotation == 0) return scaled + offset;
+  const auto c = static_cast<float>(std::cos(ref.uv_rotation));
+  const auto s = static_cast<float>(std::sin(ref.uv_rotation));
+  return Vec2f(c * scaled.x() + s * scaled.y(), -s * scaled.x() + c * scaled.y()) + offset;
 }
 
 // Texel coordinates stay far inside int for any finite uv.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/four.h"
+
 namespace skinforge {
 namespace {
 
@@ -111,19 +113,20 @@ void VisibilityTile::draw(const ScreenTriangle& triangle, std::int32_t owner, co
       const auto fa = static_cast<float>(a), fb = static_cast<float>(b), fc = static_cast<float>(c);
       const auto fw = static_cast<float>(w.at(cx, cy));
       auto& depth = depth_[pixel(x, y)];
-      Row height;
+      auto& owners = owner_[pixel(x, y)];
       std::array<std::int32_t, kSamples> covered;
-      for (std::size_t s = 0; s < kSamples; ++s) {
-        height[s] = fw + w.rise[s];
-        covered[s] = (fa + e0.rise[s] >= 0) & (fb + e1.rise[s] >= 0) & (fc + e2.rise[s] >= 0) &
-                     (height[s] > depth[s]) & (height[s] <= nearest_);
+      for (std::size_t s = 0; s < kSamples; s += 4) {
+        const FourFloats height = fw + load_four(&w.rise[s]);
+        const FourInts inside = (fa + load_four(&e0.rise[s]) >= 0) & (fb + load_four(&e1.rise[s]) >= 0) &
+                                (fc + load_four(&e2.rise[s]) >= 0);
+        store_four(inside & (height > load_four(&depth[s])) & (height <= nearest_), &covered[s]);
       }
       if (cutout) cut(cutout, x, y, covered);
-      auto& owners = owner_[pixel(x, y)];
-      for (std::size_t s = 0; s < kSamples; ++s) {  // without branches: four samples an instruction
-        const float shown = height[s] * static_cast<float>(covered[s]);
-        depth[s] = depth[s] < shown ? shown : depth[s];
-        owners[s] ^= (owners[s] ^ owner) & -covered[s];
+      for (std::size_t s = 0; s < kSamples; s += 4) {
+        const FourInts is_covered = load_four(&covered[s]), old = load_four(&owners[s]);
+        const FourFloats height = fw + load_four(&w.rise[s]);
+        store_four(is_covered ? height : load_four(&depth[s]), &depth[s]);
+        store_four((old & ~is_covered) | (owner & is_covered), &owners[s]);
       }
     }
 }
@@ -133,7 +136,7 @@ void VisibilityTile::cut(const Cutout& cutout, int x, int y,
   for (int s = 0; s < kSamples; ++s) {
     if (!covered[static_cast<std::size_t>(s)]) continue;
     const auto [dx, dy] = sample_offset(s);
-    covered[static_cast<std::size_t>(s)] = cutout(x + 0.5 + dx, y + 0.5 + dy, s);
+    covered[static_cast<std::size_t>(s)] = cutout(x + 0.5 + dx, y + 0.5 + dy, s) ? -1 : 0;
   }
 }
 

@@ -50,8 +50,8 @@ class TorusLighting : public ::testing::Test {
 
 TEST_F(TorusLighting, HolesSeeLessSkyThanTheRim) {
   const Lighting lighting(positions, triangles, {}, 256, std::nullopt);
-  const float rim = lighting.exposure(Vec3f(1, 0, 0), Vec3f::UnitX()).sky;
-  const float hole = lighting.exposure(Vec3f(0.4F, 0, 0), -Vec3f::UnitX()).sky;
+  const float rim = lighting.sky_light(Vec3f(1, 0, 0), Vec3f::UnitX());
+  const float hole = lighting.sky_light(Vec3f(0.4F, 0, 0), -Vec3f::UnitX());
   EXPECT_GT(rim, 0.95F);
   EXPECT_LT(hole, rim - 0.1F);
 }
@@ -62,7 +62,7 @@ TEST_F(TorusLighting, ColorsStayInRange) {
     for (const float roughness : {0.0F, 1.0F})
       for (const Vec3f& normal : {Vec3f(0, 1, 0), Vec3f(0, -1, 0), Vec3f(0, 0, 1)}) {
         const Finish finish{.metallic = metallic, .roughness = roughness};
-        const Vec3f color = lighting.shade({2 * normal, normal, Vec3f::UnitZ()}, finish, {1, 1});
+        const Vec3f color = lighting.shade({2 * normal, normal, Vec3f::UnitZ()}, finish, 1);
         EXPECT_GT(color.minCoeff(), 0);
         EXPECT_LT(color.maxCoeff(), 1);
       }
@@ -79,7 +79,7 @@ TEST_F(TorusLighting, FloorIsDarkUnderTheBodyAndOpenFarAway) {
 
 TEST_F(TorusLighting, NothingToLightIsFine) {
   const Lighting lighting({}, {}, {}, 128, 0.0);
-  EXPECT_EQ(lighting.exposure(Vec3f::Zero(), Vec3f::UnitY()).sky, 1);
+  EXPECT_EQ(lighting.sky_light(Vec3f::Zero(), Vec3f::UnitY()), 1);
   EXPECT_FLOAT_EQ(lighting.floor_light(Vec3f(0, 1, 0), Vec3f(0, -1, 0)), 1);
 }
 
