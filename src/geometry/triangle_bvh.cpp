@@ -13,7 +13,8 @@
 namespace skinforge {
 namespace {
 
-constexpr int kLeafSize = 4;  // ours: 2, 4 and 8 measured, see triangle_bvh.md
+constexpr int kLeafSize = 4;      // ours: 2, 4 and 8 measured, see triangle_bvh.md
+constexpr double kSlack = 1e-12;  // ours: relative, some roundings of a triangle inequality
 constexpr double kHuge = std::numeric_limits<double>::max();
 
 Box3 box_of(const TriangleCorners& t) {
@@ -23,19 +24,26 @@ Box3 box_of(const TriangleCorners& t) {
   return box;
 }
 
-// A ball around a triangle: most triangles of a leaf are farther than the best so far, and this shows it
-// cheaply.
-struct Ball {
-  Vec3 centre;
-  double radius;
+// A disc around a triangle, in its plane: most triangles of a leaf are farther than the best so far, and this
+// shows it cheaply. A degenerate triangle has normal zero, which makes it a ball.
+struct Disc {
+  Vec3 centre, normal;
+  double radius = 0;
 
-  explicit Ball(const TriangleCorners& t) : centre((t[0] + t[1] + t[2]) / 3), radius(0) {
+  explicit Disc(const TriangleCorners& t) : centre((t[0] + t[1] + t[2]) / 3), normal(Vec3::Zero()) {
+    if (!is_degenerate(t)) normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
     for (const Vec3& corner : t) radius = std::max(radius, (corner - centre).norm());
   }
-  bool is_beyond(const Vec3& p, double distance) const {
-    constexpr double kSlack = 1 + 1e-12;  // ours: some roundings
-    const double reach = (distance + radius) * kSlack;
-    return (p - centre).squaredNorm() > reach * reach;
+  // Whether every point of the disc is farther from p than the root of distance2.
+  bool is_beyond(const Vec3& p, double distance2) const {
+    const Vec3 away = p - centre;
+    const double away2 = away.squaredNorm(), height = normal.dot(away), height2 = height * height;
+    const double rounding = kSlack * (away2 + distance2);
+    const double left2 =
+        distance2 - height2 + rounding;  // what the height leaves for the way along the plane
+    if (left2 < 0) return true;
+    const double reach = radius + std::sqrt(left2);
+    return away2 - height2 - rounding > reach * reach;
   }
 };
 
@@ -88,7 +96,7 @@ struct Ray {
 
 // Where the ray enters each child's box; huge where it misses.
 BoxTree::Lanes entries(const BoxTree::Node& node, const Ray& ray) {
-  constexpr double kSlack = 1 + 8 * std::numeric_limits<double>::epsilon();  // roundings of the two products
+  constexpr double kLonger = 1 + 8 * std::numeric_limits<double>::epsilon();  // roundings of the two products
   BoxTree::Lanes enter = BoxTree::Lanes::Zero(), leave = BoxTree::Lanes::Constant(kHuge);
   for (int axis = 0; axis < 3; ++axis) {
     const BoxTree::Lanes a = (node.low[axis] - ray.origin[axis]) * ray.inverse[axis];
@@ -96,7 +104,7 @@ BoxTree::Lanes entries(const BoxTree::Node& node, const Ray& ray) {
     enter = enter.max(a.min(b));
     leave = leave.min(a.max(b));
   }
-  return (enter <= leave * kSlack).select(enter, std::numeric_limits<double>::infinity());
+  return (enter <= leave * kLonger).select(enter, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace
@@ -104,7 +112,7 @@ BoxTree::Lanes entries(const BoxTree::Node& node, const Ray& ray) {
 struct TriangleBvh::Impl {
   BoxTree tree;
   std::vector<TriangleCorners> corners;      // in the order of the tree's leaves
-  std::vector<Ball> balls;                   // likewise
+  std::vector<Disc> discs;                   // likewise
   std::vector<std::int32_t> place_of;        // of each triangle given, in that order
   std::vector<std::uint8_t> degenerate;      // likewise: 1 for a triangle without a plane
   std::vector<WindingExpansion> expansions;  // one per node
@@ -125,7 +133,7 @@ struct TriangleBvh::Impl {
     place_of.resize(given.size());
     for (std::size_t place = 0; place < given.size(); ++place)
       place_of[tree.order[place]] = static_cast<std::int32_t>(place);
-    for (const TriangleCorners& t : corners) balls.emplace_back(t);
+    for (const TriangleCorners& t : corners) discs.emplace_back(t);
     for (const TriangleCorners& t : corners) degenerate.push_back(is_degenerate(t) ? 1 : 0);
     expand();
   }
@@ -206,9 +214,8 @@ struct TriangleBvh::Impl {
   // The nearest of `best` so far and all triangles no farther than sqrt(limit2).
   ClosestPoint closest(const Vec3& query, double limit2, ClosestPoint best) const {
     const auto visit_leaf = [&](BoxTree::Child leaf, double least2) {
-      const double least = std::sqrt(least2);
       for (std::int32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
-        if (!balls[i].is_beyond(query, least)) least2 = improve(best, query, i, least2);
+        if (!discs[i].is_beyond(query, least2)) least2 = improve(best, query, i, least2);
       return least2;
     };
     nearest_first(
