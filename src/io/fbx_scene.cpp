@@ -1,0 +1,217 @@
+#include "io/fbx_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace skinforge {
+namespace {
+
+constexpr std::size_t kMaxVertices = 10'000'000;
+
+/// Frames per second of the time modes of the FBX SDK (FbxTime::EMode).
+double rate_of_mode(std::int64_t mode, double custom) {
+  constexpr std::array<double, 18> kRates = {30,    120, 100, 60,   50,     48, 30, 30, 29.97,
+                                             29.97, 25,  24,  1000, 23.976, 0,  96, 72, 59.94};
+  if (mode == 14 && custom > 0) return custom;
+  return mode >= 0 && mode < 18 && mode != 14 ? kRates[static_cast<std::size_t>(mode)] : 30;
+}
+
+const FbxNode* property(const FbxNode& object, const std::string& name) {
+  const FbxNode* table = object.child("Properties70");
+  if (!table) return nullptr;
+  for (const FbxNode& entry : table->children)
+    if (entry.text(0) == name) return &entry;
+  return nullptr;
+}
+
+Quat euler(const Vec3& degrees_xyz, int order) {
+  static constexpr std::array<std::array<int, 3>, 6> kOrders = {
+      {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
+  Quat turn = Quat::Identity();
+  for (const int axis : kOrders[static_cast<std::size_t>(order)])
+    turn = Quat(Eigen::AngleAxisd(radians(degrees_xyz[axis]), Vec3::Unit(axis))) * turn;
+  return turn;
+}
+
+/// Models that a model hangs under.
+std::vector<std::int64_t> parents_of(const FbxScene& scene, std::int64_t model) {
+  std::vector<std::int64_t> parents;
+  for (const FbxScene::Link& link : scene.targets(model)) {
+    const FbxNode* target = scene.object(link.object);
+    if (link.property.empty() && target && target->name == "Model") parents.push_back(link.object);
+  }
+  return parents;
+}
+
+/// Takes away models without parents until none is left, or only cycles and what hangs under them.
+void check_cycles(const FbxScene& scene) {
+  std::map<std::int64_t, std::vector<std::int64_t>> parents, children;
+  std::map<std::int64_t, std::size_t> left;  // parents not yet taken away
+  std::vector<std::int64_t> roots;
+  for (const std::int64_t model : scene.all("Model")) {
+    parents[model] = parents_of(scene, model);
+    for (const std::int64_t parent : parents[model]) children[parent].push_back(model);
+    if (parents[model].empty())
+      roots.push_back(model);
+    else
+      left[model] = parents[model].size();
+  }
+  while (!roots.empty()) {
+    const std::int64_t root = roots.back();
+    roots.pop_back();
+    for (const std::int64_t child : children[root])
+      if (--left[child] == 0) {
+        left.erase(child);
+        roots.push_back(child);
+      }
+  }
+  if (left.empty()) return;
+  std::int64_t here = left.begin()->first;
+  for (std::set<std::int64_t> path; path.insert(here).second;) {
+    const auto& above = parents[here];
+    here = *std::find_if(above.begin(), above.end(), [&](std::int64_t id) { return left.count(id) > 0; });
+  }
+  throw Error(ExitCode::BadInput,
+              fmt::format("FBX: node \"{}\" is its own ancestor", printable(scene.name(here))));
+}
+
+/// Returns the number of vertices.
+std::size_t check_geometry(const FbxNode& geometry) {
+  const std::vector<double> coordinates = numbers_of(geometry.child("Vertices"));
+  const std::vector<double> corners = numbers_of(geometry.child("PolygonVertexIndex"));
+  const std::size_t count = coordinates.size() / 3;
+  if (count > kMaxVertices)
+    throw Error(ExitCode::BadInput, fmt::format("FBX: {} vertices, the limit is {}", count, kMaxVertices));
+  for (const double corner : corners) {
+    const double vertex = corner < 0 ? -corner - 1 : corner;  // the last of a face is written as ~index
+    if (!(vertex < static_cast<double>(count)))
+      throw Error(ExitCode::BadInput, fmt::format("FBX: a face uses vertex {} of {}", vertex, count));
+  }
+  return count;
+}
+
+/// `counts`: vertices by geometry.
+void check_cluster(const FbxScene& scene, std::int64_t cluster,
+                   const std::map<std::int64_t, std::size_t>& counts) {
+  const std::vector<double> vertices = numbers_of(scene.object(cluster)->child("Indexes"));
+  for (const FbxScene::Link& skin : scene.targets(cluster))
+    for (const FbxScene::Link& geometry : scene.targets(skin.object)) {
+      const auto count = counts.find(geometry.object);
+      if (count == counts.end()) continue;
+      for (const double vertex : vertices)
+        if (!(vertex >= 0 && vertex < static_cast<double>(count->second)))
+          throw Error(ExitCode::BadInput, fmt::format("FBX: cluster \"{}\" weights vertex {} of {}",
+                                                      printable(scene.name(cluster)), vertex, count->second));
+    }
+}
+
+}  // namespace
+
+FbxScene::FbxScene(const FbxNode& root) : root_(root) {
+  if (const FbxNode* list = root.child("Objects"))
+    for (const FbxNode& object : list->children) objects_.emplace(object.integer(0), &object);
+  if (const FbxNode* list = root.child("Connections"))
+    for (const FbxNode& c : list->children) {
+      if (c.values.size() < 3) continue;
+      const std::string property = c.text(0) == "OP" ? c.text(3) : "";
+      sources_[c.integer(2)].push_back({c.integer(1), property});
+      targets_[c.integer(1)].push_back({c.integer(2), property});
+    }
+}
+
+const FbxNode* FbxScene::object(std::int64_t id) const {
+  const auto found = objects_.find(id);
+  return found == objects_.end() ? nullptr : found->second;
+}
+
+std::vector<std::int64_t> FbxScene::all(const std::string& node_name) const {
+  std::vector<std::int64_t> ids;
+  const FbxNode* list = root_.child("Objects");
+  for (std::size_t i = 0; list && i < list->children.size(); ++i) {
+    const FbxNode& node = list->children[i];
+    if (node.name == node_name && object(node.integer(0)) == &node) ids.push_back(node.integer(0));
+  }
+  return ids;
+}
+
+const std::vector<FbxScene::Link>& FbxScene::sources(std::int64_t id) const {
+  static const std::vector<Link> none;
+  const auto found = sources_.find(id);
+  return found == sources_.end() ? none : found->second;
+}
+
+const std::vector<FbxScene::Link>& FbxScene::targets(std::int64_t id) const {
+  static const std::vector<Link> none;
+  const auto found = targets_.find(id);
+  return found == targets_.end() ? none : found->second;
+}
+
+std::string FbxScene::name(std::int64_t id) const {
+  const FbxNode* node = object(id);
+  const std::string text = node ? node->text(1) : "";
+  const auto binary = text.find('\0');
+  if (binary != std::string::npos) return text.substr(0, binary);
+  const auto ascii = text.find("::");
+  return ascii == std::string::npos ? text : text.substr(ascii + 2);
+}
+
+double FbxScene::frame_rate() const {
+  const FbxNode* settings = root_.child("GlobalSettings");
+  if (!settings) return 30;
+  return rate_of_mode(static_cast<std::int64_t>(fbx_number(*settings, "TimeMode", 0)),
+                      fbx_number(*settings, "CustomFrameRate", 0));
+}
+
+Vec3 fbx_vector(const FbxNode& object, const std::string& name, const Vec3& fallback) {
+  const FbxNode* entry = property(object, name);
+  return entry && entry->values.size() >= 7 ? Vec3(entry->number(4), entry->number(5), entry->number(6))
+                                            : fallback;
+}
+
+double fbx_number(const FbxNode& object, const std::string& name, double fallback) {
+  const FbxNode* entry = property(object, name);
+  return entry && entry->values.size() >= 5 ? entry->number(4) : fallback;
+}
+
+FbxTransform::FbxTransform(const FbxNode& model)
+    : translation(fbx_vector(model, "Lcl Translation", Vec3::Zero())),
+      rotation_deg(fbx_vector(model, "Lcl Rotation", Vec3::Zero())),
+      scale(fbx_vector(model, "Lcl Scaling", Vec3::Ones())),
+      rotation_offset(fbx_vector(model, "RotationOffset", Vec3::Zero())),
+      rotation_pivot(fbx_vector(model, "RotationPivot", Vec3::Zero())),
+      scaling_offset(fbx_vector(model, "ScalingOffset", Vec3::Zero())),
+      scaling_pivot(fbx_vector(model, "ScalingPivot", Vec3::Zero())),
+      before(euler(fbx_vector(model, "PreRotation", Vec3::Zero()), 0)),
+      after(euler(fbx_vector(model, "PostRotation", Vec3::Zero()), 0).conjugate()),
+      order(std::clamp(static_cast<int>(fbx_number(model, "RotationOrder", 0)), 0, 5)) {}
+
+bool FbxTransform::has_pivots() const {
+  return !rotation_offset.isZero(0) || !rotation_pivot.isZero(0) || !scaling_offset.isZero(0) ||
+         !scaling_pivot.isZero(0);
+}
+
+Transform FbxTransform::local(const Vec3& t, const Vec3& degrees_xyz, const Vec3& s) const {
+  Transform result;
+  result.rotation = before * euler(degrees_xyz, order) * after;
+  result.scale = s;
+  const Vec3 inner = scaling_offset + scaling_pivot - rotation_pivot - s.cwiseProduct(scaling_pivot);
+  result.translation = t + rotation_offset + rotation_pivot + result.rotation * inner;
+  return result;
+}
+
+void check_fbx(const FbxScene& scene) {
+  check_cycles(scene);
+  std::map<std::int64_t, std::size_t> counts;
+  for (const std::int64_t id : scene.all("Geometry"))
+    if (const FbxNode& geometry = *scene.object(id); geometry.child("PolygonVertexIndex"))
+      counts[id] = check_geometry(geometry);
+  for (const std::int64_t id : scene.all("Deformer")) check_cluster(scene, id, counts);
+}
+
+}  // namespace skinforge
