@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <optional>
 #include <string_view>
 
 #include "base/error.h"
@@ -16,6 +17,8 @@
 #include "io/assimp_materials.h"
 #include "io/assimp_meshes.h"
 #include "io/assimp_values.h"
+#include "io/fbx_animation.h"
+#include "io/fbx_scene.h"
 #include "io/memory_io_system.h"
 #include "io/trs.h"
 
@@ -40,15 +43,14 @@ class Reading {
     importer_.SetPropertyBool(AI_CONFIG_IMPORT_REMOVE_EMPTY_BONES, false);
     importer_.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, !keep_pivots);
     scene_ = importer_.ReadFile(files.front().path, aiProcess_PopulateArmatureData);
-    if (!scene_ || !scene_->mRootNode)
-      throw Error(ExitCode::BadInput, printable(files.front().path) + ": " + reason());
+    if (!scene_ || !scene_->mRootNode) throw Error(ExitCode::BadInput, reason());
   }
   const aiScene& scene() const { return *scene_; }
   const MemoryIoSystem& files() const { return system_; }
 
  private:
   std::string reason() const {
-    const std::string text = printable(importer_.GetErrorString());
+    const std::string text = importer_.GetErrorString();
     return text.empty() ? "no importer knows this file" : text;
   }
 
@@ -191,22 +193,60 @@ Similarity metres_from_fbx(const aiScene& source, RawScene& scene) {
   return s;
 }
 
+constexpr int kNewestVersion = 7700;
+
+/// The FBX file as we read it ourselves, beside Assimp. A form that we do not understand is no fault of the
+/// file as long as Assimp does; what `check_fbx` finds is.
+class FbxSide {
+ public:
+  explicit FbxSide(const InputFile& file) {
+    try {
+      file_ = parse_fbx(file.bytes);
+    } catch (const Error& error) {
+      trouble_ = error.what();
+      return;
+    }
+    scene_.emplace(file_.root);
+    check_fbx(*scene_);
+  }
+  FbxSide(const FbxSide&) = delete;  // its parts point at each other
+  FbxSide& operator=(const FbxSide&) = delete;
+
+  void add_to(RawScene& scene) const {
+    if (file_.version > kNewestVersion)
+      scene.issues.push_back({"fbx-version", Severity::Warning, "scene",
+                              fmt::format("FBX version {} is newer than {}", file_.version, kNewestVersion)});
+    if (scene_) return restore_fbx_curves(*scene_, scene);
+    scene.issues.push_back({"fbx-unchecked", Severity::Warning, "scene",
+                            "the file could not be checked, and curves are read as keys: " + trouble_});
+  }
+
+ private:
+  FbxFile file_;
+  std::optional<FbxScene> scene_;
+  std::string trouble_;
+};
+
 }  // namespace
 
 RawScene read_with_assimp(const std::vector<InputFile>& files) {
-  const bool is_fbx = lower_extension(files.front().path) == ".fbx";
+  std::optional<FbxSide> fbx;
+  if (lower_extension(files.front().path) == ".fbx") fbx.emplace(files.front());
   const Reading reading(files, false);
   const aiScene& source = reading.scene();
   RawScene scene;
   scene.skin_ignores_mesh_node = false;
   scene.triangles_only = false;
   const NodeIndex index = read_nodes(source, scene);
-  if (is_fbx) scene.metres_from_file = metres_from_fbx(source, scene);
-  const auto geometric =
-      is_fbx ? split_geometric(files, scene) : std::vector<Affine3>(scene.nodes.size(), Affine3::Identity());
-  const auto material = read_materials(source, is_fbx, reading.files(), scene);
+  std::vector<Affine3> geometric(scene.nodes.size(), Affine3::Identity());
+  if (fbx) {
+    scene.metres_from_file = metres_from_fbx(source, scene);
+    geometric = split_geometric(files, scene);
+  }
+  const auto material = read_materials(source, fbx.has_value(), reading.files(), scene);
   read_meshes(source, index, geometric, material, scene);
   read_animations(source, index, scene);
+  if (fbx) fbx->add_to(scene);
   return scene;
 }
 

@@ -11,8 +11,8 @@ namespace skinforge {
 /// polygons stay polygons; key times are seconds; UVs point down as in glTF. An FBX keeps its units and axes,
 /// and `metres_from_file` says how to leave them; the geometric transform of an FBX node is moved into its
 /// vertices. Images come from inside the file or from `files`; others are left out with an issue.
-/// Memory-unsafe on hostile input: call through `sandbox.h`. Throws Error (BadInput), one line that starts
-/// with the path.
+/// Memory-unsafe on hostile input: call through `sandbox.h`. Throws Error (BadInput) without the path, and
+/// with the bytes of the file where Assimp quotes them.
 RawScene read_with_assimp(const std::vector<InputFile>& files);
 
 }  // namespace skinforge

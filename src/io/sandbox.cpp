@@ -27,7 +27,7 @@ namespace skinforge {
 namespace {
 
 constexpr std::size_t kMaxAnswer = std::size_t{4} << 30;  // far above what fits the child's memory
-constexpr const char* kMemory = "out of memory";
+constexpr int kOutOfMemory = 75;  // exit status of the child; EX_TEMPFAIL of sysexits.h
 constexpr const char* kMark = "SKINFORGE_IMPORT_WORKER";  // in the environment of every worker
 
 std::string& worker_path() {
@@ -137,21 +137,22 @@ void enter_cell(const SandboxLimits& limits) {
   ::alarm(static_cast<unsigned>(limits.wall_seconds));
 }
 
+/// Ends the child at once: Assimp catches what it can, and would go on without the mesh that did not fit.
+[[noreturn]] void end_without_memory() {
+  ::_exit(kOutOfMemory);
+}
+
 Bytes answer_to(const Task& task) {
   Answer answer;
   try {
     answer.scene = read_with_assimp(task.files);
     return to_bytes(answer);
-  } catch (const Error& error) {
-    answer.error = error.what();
   } catch (const std::bad_alloc&) {
-    answer.error = kMemory;
+    end_without_memory();
   } catch (const std::exception& error) {
-    answer.error = printable(task.files.front().path) + ": " + printable(error.what());
+    answer.error = error.what();
   }
-  if (answer.error.find("bad_alloc") != std::string::npos) answer.error = kMemory;
-  answer.scene = {};
-  return to_bytes(answer);
+  return to_bytes(Answer{answer.error, {}});
 }
 
 struct Job {
@@ -172,10 +173,8 @@ Bytes answer_with_stack(const Task& task) {
   pthread_t thread;
   ::pthread_attr_init(&attributes);
   ::pthread_attr_setstacksize(&attributes, task.limits.stack);
-  if (::pthread_create(&thread, &attributes, run_job, &job) != 0)
-    job.answer = to_bytes(Answer{kMemory, {}});
-  else
-    ::pthread_join(thread, nullptr);
+  if (::pthread_create(&thread, &attributes, run_job, &job) != 0) end_without_memory();
+  ::pthread_join(thread, nullptr);
   ::pthread_attr_destroy(&attributes);
   return std::move(job.answer);
 }
@@ -241,6 +240,8 @@ void check_end(int status, const SandboxLimits& limits) {
   const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   std::string how = fmt::format("importer crashed (signal {})", number);
   if (number == 0) how = fmt::format("importer ended with status {}", WEXITSTATUS(status));
+  if (number == 0 && WEXITSTATUS(status) == kOutOfMemory)
+    how = fmt::format("importer needs more than {} MB of memory", limits.address_space >> 20);
   if (number == SIGXCPU || number == SIGKILL)
     how = fmt::format("importer took more than {} s", limits.cpu_seconds);
   if (number == SIGALRM) how = fmt::format("importer did not answer for {} s", limits.wall_seconds);
@@ -275,14 +276,12 @@ Answer ask_worker(const std::vector<InputFile>& files, const SandboxLimits& limi
 
 RawScene read_in_child(const std::vector<InputFile>& files, const SandboxLimits& limits) {
   refuse_in_worker();
-  const std::string place = printable(files.front().path);
-  Answer answer = with_context(place, [&] { return ask_worker(files, limits); });
-  if (answer.error == kMemory)
-    throw Error(ExitCode::BadInput, fmt::format("{}: importer needs more than {} MB of memory", place,
-                                                limits.address_space >> 20));
-  if (!answer.error.empty()) throw Error(ExitCode::BadInput, printable(answer.error));
-  with_context(place, [&] { check_raw_scene(answer.scene); });
-  return std::move(answer.scene);
+  return with_context(printable(files.front().path), [&] {
+    Answer answer = ask_worker(files, limits);
+    if (!answer.error.empty()) throw Error(ExitCode::BadInput, printable(answer.error));
+    check_raw_scene(answer.scene);
+    return std::move(answer.scene);
+  });
 }
 
 void set_import_worker(std::string executable) {
@@ -293,6 +292,7 @@ int import_worker_main(int, char**) {
   try {
     const auto task = from_bytes<Task>(read_all(STDIN_FILENO));
     if (task.files.empty()) return 1;
+    std::set_new_handler(end_without_memory);
     enter_cell(task.limits);
     const Bytes answer = answer_with_stack(task);
     write_all(STDOUT_FILENO, answer);
