@@ -1,4 +1,4 @@
-#include "field/vdb_grid.h"
+#include "field/vdb/vdb_grid.h"
 
 #include <algorithm>
 #include <cmath>

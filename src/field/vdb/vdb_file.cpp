@@ -4,7 +4,8 @@
 #include <sstream>
 
 #include "base/expect.h"
-#include "field/vdb_grid.h"
+#include "field/vdb/vdb_grid.h"
+#include "field/vdb/vdb_module.h"
 
 namespace skinforge {
 namespace {
@@ -25,7 +26,7 @@ void blank_identifier(std::string& file) {
 
 }  // namespace
 
-Bytes to_vdb(const DistanceField& field) {
+Bytes vdb::to_vdb(const DistanceField& field) {
   const auto grid = sparse_grid(field, 0, reaches_band);
   grid->setName("distance");
   grid->setGridClass(openvdb::GRID_LEVEL_SET);

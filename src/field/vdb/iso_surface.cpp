@@ -1,6 +1,7 @@
 #include <openvdb/tools/VolumeToMesh.h>
 
-#include "field/vdb_grid.h"
+#include "field/vdb/vdb_grid.h"
+#include "field/vdb/vdb_module.h"
 
 namespace skinforge {
 namespace {
@@ -60,7 +61,7 @@ class SurfaceBuilder {
 // Points are computed in index space, in float: a thousandth of a voxel is far above their rounding, and the
 // result scales with the lattice. One layer of continued values lets the surface run out of the lattice; what
 // OpenVDB closes beyond it is cut off again.
-IsoSurface extract_iso_surface(const DistanceField& field) {
+IsoSurface vdb::extract_iso_surface(const DistanceField& field) {
   const auto grid = sparse_grid(field, 1, changes_sign);
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec4I> quads;

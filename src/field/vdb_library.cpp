@@ -1,0 +1,57 @@
+#include <dlfcn.h>
+#include <link.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "field/signed_distance.h"
+#include "field/vdb/vdb_module.h"
+#include "field/vdb_module_id.h"  // kVdbModule, kVdbModuleSha256: written by the build
+
+namespace skinforge {
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+  throw Error(ExitCode::Internal, std::string(kVdbModule) + ": " + what);
+}
+
+std::string file_of(void* library) {
+  const link_map* map = nullptr;
+  return ::dlinfo(library, RTLD_DI_LINKMAP, &map) == 0 ? map->l_name : std::string();
+}
+
+// Results are cached under the id of the program, which knows the module by its digest.
+void expect_own(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (sha256(std::as_bytes(std::span(bytes))).hex() != kVdbModuleSha256)
+    fail("this file belongs to another build of skinforge");
+}
+
+const VdbFunctions& load() {
+  void* library = ::dlopen(kVdbModule, RTLD_NOW | RTLD_LOCAL);
+  if (!library) fail(std::string("cannot be loaded: ") + ::dlerror());
+  expect_own(file_of(library));
+  const auto* found = static_cast<const VdbFunctions*>(::dlsym(library, kVdbSymbol));
+  if (!found) fail("is not what it should be");
+  return *found;
+}
+
+const VdbFunctions& functions() {
+  static const VdbFunctions& loaded = load();
+  return loaded;
+}
+
+}  // namespace
+
+IsoSurface extract_iso_surface(const DistanceField& field) {
+  return functions().extract_iso_surface(field);
+}
+
+Bytes to_vdb(const DistanceField& field) {
+  return functions().to_vdb(field);
+}
+
+}  // namespace skinforge
