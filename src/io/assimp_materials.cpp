@@ -18,6 +18,7 @@ namespace skinforge {
 namespace {
 
 constexpr double kClassicRoughness = 1;  // Phong and Lambert have none; matt is the least surprising
+constexpr double kFbxDiffuse = 0.8;      // default of the FBX SDK, as its exporters write it
 
 std::optional<Vec3> color(const aiMaterial& m, const char* key, unsigned type, unsigned index) {
   aiColor4D c;
@@ -61,9 +62,7 @@ class MaterialReader {
     aiString name;
     if (m.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) result.name = printable(to_text(name));
     place_ = "material " + result.name;
-    const Vec3 base =
-        color(m, AI_MATKEY_BASE_COLOR).value_or(color(m, AI_MATKEY_COLOR_DIFFUSE).value_or(Vec3::Ones()));
-    result.base_color << base, opacity(m);
+    result.base_color << base_color(m), opacity(m);
     result.metallic = number(m, AI_MATKEY_METALLIC_FACTOR).value_or(0);
     result.roughness =
         std::clamp(number(m, AI_MATKEY_ROUGHNESS_FACTOR).value_or(kClassicRoughness), 0.0, 1.0);
@@ -76,13 +75,19 @@ class MaterialReader {
   }
 
  private:
-  /// FBX: what shines through is TransparentColor * TransparencyFactor. A wholly invisible material is taken
-  /// for an exporter that filled one of the two by habit.
+  /// FBX: DiffuseColor * DiffuseFactor, which FBX2glTF 0.9.7 takes for linear as well.
+  Vec3 base_color(const aiMaterial& m) const {
+    const auto base = color(m, AI_MATKEY_BASE_COLOR), diffuse = color(m, AI_MATKEY_COLOR_DIFFUSE);
+    return base ? *base : diffuse.value_or(Vec3::Constant(is_fbx_ ? kFbxDiffuse : 1));
+  }
+
+  /// FBX: what shines through is TransparentColor * TransparencyFactor, multiplied by Assimp. A wholly
+  /// invisible material is taken for an exporter that filled one of the two by habit.
   double opacity(const aiMaterial& m) {
     const auto tint = color(m, AI_MATKEY_COLOR_TRANSPARENT);
     const auto factor = number(m, AI_MATKEY_TRANSPARENCYFACTOR);
     double value = number(m, AI_MATKEY_OPACITY).value_or(1);
-    if (is_fbx_ && tint && factor) value = 1 - tint->mean() * *factor;
+    if (is_fbx_ && tint && factor) value = 1 - tint->mean();
     value = std::clamp(value, 0.0, 1.0);
     if (value > 0) return value;
     scene_.issues.push_back({"material-invisible", Severity::Warning, place_,

@@ -193,6 +193,17 @@ Similarity metres_from_fbx(const aiScene& source, RawScene& scene) {
   return s;
 }
 
+/// Materials that neither give a colour nor a texture: what they look like is the default of the format.
+void note_missing_colors(const FbxScene& fbx, RawScene& scene) {
+  for (const std::int64_t id : fbx.all("Material")) {
+    const FbxNode& material = *fbx.object(id);
+    if (fbx_has(material, "DiffuseColor") || fbx_has(material, "Diffuse") || !fbx.sources(id).empty())
+      continue;
+    scene.issues.push_back({"material-without-colour", Severity::Note, "material " + printable(fbx.name(id)),
+                            "the file gives neither colour nor texture; it is grey by default"});
+  }
+}
+
 constexpr int kNewestVersion = 7700;
 
 /// The FBX file as we read it ourselves, beside Assimp. A form that we do not understand is no fault of the
@@ -216,9 +227,13 @@ class FbxSide {
     if (file_.version > kNewestVersion)
       scene.issues.push_back({"fbx-version", Severity::Warning, "scene",
                               fmt::format("FBX version {} is newer than {}", file_.version, kNewestVersion)});
-    if (scene_) return restore_fbx_curves(*scene_, scene);
-    scene.issues.push_back({"fbx-unchecked", Severity::Warning, "scene",
-                            "the file could not be checked, and curves are read as keys: " + trouble_});
+    if (scene_) {
+      note_missing_colors(*scene_, scene);
+      restore_fbx_curves(*scene_, scene);
+    } else {
+      scene.issues.push_back({"fbx-unchecked", Severity::Warning, "scene",
+                              "the file could not be checked, and curves are read as keys: " + trouble_});
+    }
   }
 
  private:

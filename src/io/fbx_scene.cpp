@@ -168,6 +168,10 @@ double FbxScene::frame_rate() const {
                       fbx_number(*settings, "CustomFrameRate", 0));
 }
 
+bool fbx_has(const FbxNode& object, const std::string& name) {
+  return property(object, name) != nullptr;
+}
+
 Vec3 fbx_vector(const FbxNode& object, const std::string& name, const Vec3& fallback) {
   const FbxNode* entry = property(object, name);
   return entry && entry->values.size() >= 7 ? Vec3(entry->number(4), entry->number(5), entry->number(6))

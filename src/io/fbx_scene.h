@@ -41,6 +41,8 @@ class FbxScene {
   std::map<std::int64_t, std::vector<Link>> sources_, targets_;
 };
 
+/// Whether a node's Properties70 has the property.
+bool fbx_has(const FbxNode& object, const std::string& property);
 /// Values of a property in a node's Properties70; `fallback` when it is not there.
 Vec3 fbx_vector(const FbxNode& object, const std::string& property, const Vec3& fallback);
 double fbx_number(const FbxNode& object, const std::string& property, double fallback);

@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::CharacterPlayer;
 
+constexpr double kColor = 1e-6;      // floats on both sides
 constexpr double kReference = 1e-4;  // of the diagonal: two readers, float keys, other orders of products
 /// FBX2glTF 0.9.7 writes inverse bind matrices for man and woman that differ by up to 0.8 degrees from the
 /// Transform of the file's clusters, which times TransformLink gives the mesh node's transform to 1e-4 for
@@ -106,6 +107,33 @@ TEST(FbxReference, CubicKeysPlayAsFbx2gltf) {
   const std::string folder = "conf_fbx_max_transformed_skin/max_transformed_skin_7500_";
   EXPECT_EQ(compare(folder + "ascii.fbx", kReference), 1u);
   EXPECT_EQ(compare(folder + "binary.fbx", kReference), 1u);
+}
+
+/// Base colours by material, of a file made by FBX2glTF.
+std::map<std::string, std::vector<double>> base_colors(const nlohmann::json& gltf) {
+  std::map<std::string, std::vector<double>> colors;
+  for (const auto& material : gltf["materials"])
+    colors[material["name"]] = material["pbrMetallicRoughness"]["baseColorFactor"].get<std::vector<double>>();
+  return colors;
+}
+
+TEST(FbxReference, BaseColoursAsFbx2gltf) {
+  SKINFORGE_NEEDS_SHARED();
+  SKINFORGE_NEEDS_FBX2GLTF();
+  for (const std::string asset :
+       {"quaternius_dragon/dragon.fbx", "quaternius_eagle/eagle.fbx", "quaternius_man/man.fbx"}) {
+    SCOPED_TRACE(asset);
+    const std::string path = testing::shared_file("assets/" + asset);
+    const testing::TemporaryFolder folder;
+    const testing::GltfEvaluator file(converted(*fbx2gltf(), path, folder / "reference.glb"));
+    const auto wanted = base_colors(file.json());
+    IssueSink issues;
+    const Character character = import_character(path, issues);
+    ASSERT_EQ(character.materials.size(), wanted.size());
+    for (const Material& m : character.materials)
+      for (int i = 0; i < 4; ++i)
+        EXPECT_NEAR(m.base_color[i], wanted.at(m.name)[static_cast<std::size_t>(i)], kColor) << m.name;
+  }
 }
 
 /// Positions by clip and frame, as evaluate_fbx.py prints them.
