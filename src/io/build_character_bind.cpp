@@ -11,17 +11,18 @@
 namespace skinforge {
 namespace {
 
-/// Two binds of one joint count as one when they differ by no more, relative to the size of the matrix: what
-/// float matrices lose in a chain of products.
+/// Two binds of one joint count as one when they differ by no more, of the matrix and of the mesh's size:
+/// what float matrices lose in a chain of products.
 constexpr double kSameBind = 1e-5;
 /// A pose stands for the bind pose when it is this near: exporters write both with rounding, some after a
 /// detour through Euler angles.
 constexpr double kSamePlace = 1e-3;
 
-bool same(const Affine3& a, const Affine3& b, double tolerance) {
-  const double linear = a.linear().norm(), far = std::max(a.translation().norm(), b.translation().norm());
-  return (a.linear() - b.linear()).norm() <= tolerance * linear &&
-         (a.translation() - b.translation()).norm() <= tolerance * std::max(far, linear);
+/// `size` of the skinned mesh, in the space that the maps lead to.
+bool same(const Affine3& a, const Affine3& b, double size, double tolerance) {
+  const double far = std::max(a.translation().norm(), b.translation().norm());
+  return (a.linear() - b.linear()).norm() <= tolerance * a.linear().norm() &&
+         (a.translation() - b.translation()).norm() <= tolerance * std::max(far, size);
 }
 
 bool is_regular(const Affine3& m) {
@@ -110,7 +111,9 @@ class Binder {
   void bind_skin(std::size_t s) {
     const RawScene::Skin& skin = scene_.skins[s];
     bind_.resize(result_.nodes.size());
+    reach_ = reach_of(s);
     const Affine3 place = place_of(s);
+    size_ = size_under(place);
     const bool is_identity = place.isApprox(Affine3::Identity(), 0);
     result_.skin_place[s] = place;
     for (std::size_t k = 0; k < skin.joints.size(); ++k) {
@@ -119,12 +122,25 @@ class Binder {
     }
   }
 
+  /// Diagonal of the box around all vertices of a skin, as its meshes have them.
+  double reach_of(std::size_t s) const {
+    Eigen::AlignedBox3d box;
+    for (const RawScene::Node& node : scene_.nodes) {
+      if (node.mesh < 0 || node.skin != static_cast<std::int32_t>(s)) continue;
+      for (const auto& primitive : scene_.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+        for (const Vec3& p : primitive.positions) box.extend(p);
+    }
+    return box.isEmpty() ? 0 : box.diagonal().norm();
+  }
+
+  double size_under(const Affine3& file_from_mesh) const { return reach_ * file_from_mesh.linear().norm(); }
+
   /// The node that carries this bind of a joint: the joint itself, or a helper that moves with it.
   std::int32_t bind_joint(std::int32_t joint, const Affine3& node_from_file) {
     const Affine3 bind = node_from_file.inverse();
     for (std::int32_t node : carriers_of(joint)) {
       auto& known = bind_[static_cast<std::size_t>(node)];
-      if (known && !same(*known, bind, kSameBind)) continue;
+      if (known && !same(*known, bind, size_, kSameBind)) continue;
       if (!known) {
         known = bind;
         result_.node_from_file[static_cast<std::size_t>(node)] = node_from_file;
@@ -179,7 +195,7 @@ class Binder {
     if (votes.empty()) return std::nullopt;
     const auto support = [&](const Affine3& map) {
       return std::count_if(votes.begin(), votes.end(),
-                           [&](const Affine3& vote) { return same(map, vote, kSameBind); });
+                           [&](const Affine3& vote) { return same(map, vote, size_under(map), kSameBind); });
     };
     if (support(node) == static_cast<std::ptrdiff_t>(votes.size())) return node;
     return *std::max_element(votes.begin(), votes.end(),
@@ -195,8 +211,8 @@ class Binder {
       poses.push_back(world_[static_cast<std::size_t>(skin.joints[k])] * inverse_bind(skin, k));
     std::erase_if(poses, [](const Affine3& pose) { return !is_regular(pose); });
     if (poses.empty()) return has_node ? node : Affine3(Affine3::Identity());
-    const auto agrees = [](const Affine3& map) {
-      return [&map](const Affine3& pose) { return same(map, pose, kSamePlace); };
+    const auto agrees = [this](const Affine3& map) {
+      return [&, size = size_under(map)](const Affine3& pose) { return same(map, pose, size, kSamePlace); };
     };
     if (has_node && std::any_of(poses.begin(), poses.end(), agrees(node))) return node;
     const Affine3& root = poses.front();
@@ -215,6 +231,8 @@ class Binder {
   IssueSink& issues_;
   BoundScene result_;
   std::vector<Affine3> world_;  ///< the file's default pose
+  double reach_ = 0;            ///< of the skin at work, in mesh space
+  double size_ = 0;             ///< the same in the space of the file
   std::vector<std::optional<Affine3>> bind_;
   std::vector<std::int32_t> user_;                              ///< per skin, the first node that shows it
   std::vector<std::pair<std::int32_t, std::int32_t>> helpers_;  ///< joint, helper

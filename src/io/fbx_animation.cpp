@@ -320,8 +320,8 @@ class Restorer {
     const Affine3 ours = t.local(t.translation, t.rotation_deg, t.scale).matrix();
     const RawScene::Node& node = scene_.nodes[n];
     const Affine3 theirs = node.matrix.value_or(node.local.matrix());
-    const double size = theirs.matrix().norm();
-    return (ours.matrix() - theirs.matrix()).norm() <= kSamePose * size;
+    return (ours.linear() - theirs.linear()).norm() <= kSamePose * theirs.linear().norm() &&
+           (ours.translation() - theirs.translation()).norm() <= kSamePose * t.reach();
   }
 
   static RawScene::NodeTracks* tracks_of(RawScene::Animation& animation, std::optional<std::size_t> node) {

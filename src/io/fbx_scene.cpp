@@ -200,6 +200,11 @@ bool FbxTransform::has_pivots() const {
          !scaling_pivot.isZero(0);
 }
 
+double FbxTransform::reach() const {
+  return std::max({translation.norm(), rotation_offset.norm(), rotation_pivot.norm(), scaling_offset.norm(),
+                   scaling_pivot.norm()});
+}
+
 Transform FbxTransform::local(const Vec3& t, const Vec3& degrees_xyz, const Vec3& s) const {
   Transform result;
   result.rotation = before * euler(degrees_xyz, order) * after;

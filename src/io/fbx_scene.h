@@ -55,6 +55,7 @@ struct FbxTransform {
 
   Transform local(const Vec3& translation, const Vec3& rotation_deg, const Vec3& scale) const;
   bool has_pivots() const;
+  double reach() const;  ///< the longest of its vectors
 
   Vec3 translation, rotation_deg, scale;  ///< of the file's default pose
   Vec3 rotation_offset, rotation_pivot, scaling_offset, scaling_pivot;

@@ -318,6 +318,26 @@ TEST(BuildCharacter, SecondBindOfAJointGetsAHelper) {
   EXPECT_EQ(c.mesh.positions[6], Vec3(1, 1, 0));
 }
 
+// The same at any size: no length is compared with a fixed one.
+TEST(BuildCharacter, SecondBindAtAnySize) {
+  for (const double size : {1e-9, 1.0, 1e9}) {
+    SCOPED_TRACE(size);
+    RawScene scene = two_joints();
+    scene.nodes.push_back(node("body2", -1));
+    scene.nodes[3].mesh = 1;
+    scene.nodes[3].skin = 1;
+    scene.nodes[2].local.translation *= size;
+    for (Vec3& p : scene.meshes[0].primitives[0].positions) p *= size;
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.skins[0].inverse_bind[1] = moved(0, -size, 0);
+    scene.skins.push_back({"skin2", {1, 2}, {Affine3::Identity(), moved(0, -0.5 * size, 0)}});
+    IssueSink issues;
+    const Character c = build_character(scene, "two", issues);
+    EXPECT_THAT(c.skeleton.names(), ::testing::ElementsAre("low", "high", "high_bind2"));
+    EXPECT_EQ(c.mesh.positions.size(), 8u);
+  }
+}
+
 TEST(BuildCharacter, MorphTargetsComeAlong) {
   RawScene scene = two_joints();
   auto& p = scene.meshes[0].primitives[0];
