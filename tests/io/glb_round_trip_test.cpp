@@ -9,6 +9,7 @@
 #include "io/import.h"
 #include "testing/assets.h"
 #include "testing/gltf_evaluator.h"
+#include "testing/posed_points.h"
 #include "testing/temporary_folder.h"
 
 namespace skinforge {
@@ -74,6 +75,79 @@ TEST_P(GlbRoundTrip, PolygonsJointsMaterialsAndImagesComeBack) {
   }
 }
 
+/// What stands on the corners of faces, a list of floats for each: position, UV sets, colour; sorted.
+std::vector<std::vector<float>> corner_values(const PolygonMesh& mesh) {
+  std::vector<std::vector<float>> list;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const MeshPart& part = mesh.parts[mesh.face_part[f].index()];
+    for (std::size_t c = mesh.first_corner(FaceId(f)); c < mesh.first_corner(FaceId(f + 1)); ++c) {
+      std::vector<float> values;
+      const auto add = [&](const auto& vector) {
+        for (const double value : vector) values.push_back(static_cast<float>(value));
+      };
+      add(mesh.positions[mesh.corners[c].index()]);
+      for (int set = 0; set < part.uv_sets; ++set) add(mesh.uvs[static_cast<std::size_t>(set)][c]);
+      if (part.has_colors) add(mesh.colors[c]);
+      list.push_back(std::move(values));
+    }
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+TEST_P(GlbRoundTrip, UvsAndColoursComeBack) {
+  EXPECT_EQ(corner_values(after_.mesh), corner_values(before_.mesh));
+  EXPECT_EQ(after_.mesh.uvs.size(), before_.mesh.uvs.size());
+}
+
+/// Positions and offsets of a target, as floats, sorted.
+std::vector<std::vector<float>> offsets(const Character& character, const MorphTarget& target) {
+  std::vector<std::vector<float>> list;
+  for (std::size_t i = 0; i < target.vertices.size(); ++i) {
+    const Eigen::Vector3f p = character.mesh.positions[target.vertices[i].index()].cast<float>();
+    const Eigen::Vector3f o = target.offsets[i].cast<float>();
+    list.push_back({p.x(), p.y(), p.z(), o.x(), o.y(), o.z()});
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+TEST_P(GlbRoundTrip, MorphTargetsComeBack) {
+  ASSERT_EQ(after_.morphs.size(), before_.morphs.size());
+  for (std::size_t m = 0; m < before_.morphs.size(); ++m) {
+    const MorphTarget &a = before_.morphs[m], &b = after_.morphs[m];
+    EXPECT_EQ(b.name, a.name);
+    EXPECT_EQ(static_cast<float>(b.default_weight), static_cast<float>(a.default_weight)) << a.name;
+    EXPECT_THAT(after_.mesh.parts[b.part.index()].name,  // "_mesh" behind it where a joint has the name
+                ::testing::StartsWith(before_.mesh.parts[a.part.index()].name));
+    EXPECT_EQ(offsets(after_, b), offsets(before_, a)) << a.name;
+  }
+}
+
+Character with_four_influences(Character character) {
+  SkinWeights weights;
+  for (std::size_t v = 0; v < character.mesh.vertex_count(); ++v) {
+    const auto row = character.weights.of(VertexId(v));
+    weights.push_row(normalised_row({row.begin(), row.end()}, 4));
+  }
+  character.weights = weights;
+  return character;
+}
+
+// All skins, weights, morph targets and keys at once.
+TEST_P(GlbRoundTrip, ClipsMoveTheMeshAsBefore) {
+  const Character before = with_four_influences(before_);
+  const testing::CharacterPlayer first(before), second(after_);
+  ASSERT_EQ(after_.clips.size(), before_.clips.size());
+  for (std::size_t c = 0; c < before_.clips.size(); ++c)
+    for (const double part : {0.0, 0.37, 1.0}) {
+      const double time = part * before_.clips[c].duration;
+      EXPECT_LT(testing::set_distance(first.pose(before_.clips[c], time), second.pose(after_.clips[c], time)),
+                kFloatChain * before_.mesh.diagonal())
+          << before_.clips[c].name << " at " << time;
+    }
+}
+
 template <class Value>
 void expect_same_keys(const Track<Value>& a, const Track<Value>& b, const std::string& where) {
   EXPECT_EQ(a.interpolation, b.interpolation) << where;
@@ -134,8 +208,11 @@ TEST_P(GlbRoundTrip, TheDefaultPoseOfTheFileIsTheBindPose) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Assets, GlbRoundTrip,
-                         ::testing::Values("kaykit_knight/knight.glb", "khronos_cesium_man/cesium_man.gltf",
-                                           "khronos_fox/fox.glb", "quaternius_horse/horse.glb",
+                         ::testing::Values("conf_morph_cube/AnimatedMorphCube.gltf",
+                                           "conf_interpolation/interpolation_test.gltf",
+                                           "quaternius_woman/woman.fbx", "kaykit_knight/knight.glb",
+                                           "khronos_cesium_man/cesium_man.gltf", "khronos_fox/fox.glb",
+                                           "quaternius_horse/horse.glb",
                                            "quaternius_robot_expressive/robot_expressive.glb",
                                            "quaternius_woman_adventurer_nan/adventurer_nan.glb",
                                            "quaternius_dragon/dragon.fbx", "quaternius_man/man.fbx"),

@@ -264,6 +264,23 @@ TEST(GlbWriter, CornersComeBackWithTheirAttributes) {
   }
 }
 
+// "body" gets a second UV set, on which a texture lies; "face" has none.
+TEST(GlbWriter, SeveralUvSetsComeBack) {
+  Character toy = testing::ToyCharacter::make();
+  toy.mesh.parts[0].uv_sets = 2;
+  toy.mesh.uvs.push_back(toy.mesh.uvs[0]);
+  for (std::size_t c = 0; c < 24; ++c) toy.mesh.uvs[1][c] = Vec2(0.125 * double(c), 1 - 0.25 * double(c));
+  toy.materials[1].normal_texture->uv_set = 1;
+  const RawScene scene = read_back(toy);
+  const RawScene::Primitive& p = scene.meshes[0].primitives[1];
+  ASSERT_EQ(p.uvs.size(), 2u);
+  for (std::size_t v = 0; v < 16; ++v)
+    for (std::size_t set = 0; set < 2; ++set) EXPECT_EQ(p.uvs[set][v], toy.mesh.uvs[set][8 + v]);
+  EXPECT_EQ(scene.materials[1].normal_texture->uv_set, 1);
+  EXPECT_EQ(scene.materials[1].base_color_texture->uv_set, 0);
+  EXPECT_TRUE(scene.meshes[1].primitives[0].uvs.empty());
+}
+
 TEST(GlbWriter, MorphTargetsComeBack) {
   const Character toy = testing::ToyCharacter::make();
   const RawScene::Mesh mesh = read_back(toy).meshes.at(1);
