@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <functional>
 #include <string>
@@ -21,6 +22,7 @@ struct Lattice {
     return (static_cast<std::size_t>(k) * size[1] + j) * size[0] + i;
   }
   Vec3 point(int i, int j, int k) const { return origin + voxel * Vec3(i, j, k); }
+  Eigen::AlignedBox3d box() const { return {origin, point(size[0] - 1, size[1] - 1, size[2] - 1)}; }
 
   template <class Archive>
   friend void fields(Archive& a, Lattice& l) {

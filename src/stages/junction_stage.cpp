@@ -6,23 +6,6 @@
 namespace skinforge {
 namespace {
 
-// All preserved triangles: what an isosurface is trimmed clear of.
-TriangleBvh preserved_bvh(std::span<const PreservedSource> sources) {
-  std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;
-  for (const PreservedSource& source : sources) {
-    const auto first = static_cast<std::int32_t>(positions.size());
-    positions.insert(positions.end(), source.mesh->positions.begin(), source.mesh->positions.end());
-    const Triangulation all = triangulate(*source.mesh);
-    for (std::size_t t = 0; t < all.triangles.size(); ++t) {
-      if (!source.selection.kept[all.face[t].index()]) continue;
-      const auto& c = all.triangles[t];
-      triangles.push_back({c[0].value + first, c[1].value + first, c[2].value + first});
-    }
-  }
-  return {positions, triangles};
-}
-
 /// M_J of every operation, and M_R (Sec. 6.1).
 class MakeJunctions final : public Stage {
  public:
@@ -53,7 +36,7 @@ class MakeJunctions final : public Stage {
                           in.get<SiteField>(names_.field(group.front())), group.front(), options_);
     }
     for (PreservedSource& source : sources) clean_borders(source, options_);
-    const TriangleBvh kept = preserved_bvh(sources);
+    const KeptSurface kept = kept_surface(sources);
     SurfaceResult result;
     result.junctions.resize(site_count_);
     result.arcs.resize(site_count_, 0);

@@ -51,6 +51,7 @@ class Select final : public Stage {
     options_.smoothing_passes = recipe.surface.presence_smoothing;
     options_.keep_variance = recipe.surface.keep_or_drop.variance;
     options_.keep_mean = recipe.surface.keep_or_drop.mean;
+    field_options_.voxel_factor = recipe.surface.voxel_factor;
   }
 
   StageInfo info() const override {
@@ -59,7 +60,10 @@ class Select final : public Stage {
             .reads = joined(character_names(names_, inputs_), {names_.placement(), names_.graft()}),
             .writes = {names_.placed(), names_.selection(), names_.groups()}};
   }
-  void add_to_key(Hasher& key) const override { key.add_value("options", options_); }
+  void add_to_key(Hasher& key) const override {
+    key.add_value("options", options_);
+    key.add_value("field", field_options_);
+  }
 
   void run(const StageInput& in, StageOutput& out, IssueSink& issues) const override {
     const auto characters = get_characters(in, names_, inputs_);
@@ -76,7 +80,7 @@ class Select final : public Stage {
       selections.push_back(select_faces(placed.back(), character.weights, cuts, options_,
                                         fmt::format("input {}", inputs_[source.input]), issues));
     }
-    out.put(names_.groups(), group_sites(graft, placed, selections));
+    out.put(names_.groups(), group_sites(graft, placed, selections, field_options_));
     out.put(names_.placed(), std::move(placed));
     out.put(names_.selection(), std::move(selections));
   }
@@ -91,6 +95,7 @@ class Select final : public Stage {
   ArtifactNames names_;
   std::vector<std::string> inputs_;
   SelectionOptions options_;
+  FieldOptions field_options_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "stages/site_solids.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -43,15 +44,39 @@ std::vector<SiteParticipant> participants_of(const Graft& graft, const SiteGroup
   return participants;
 }
 
-bool share_a_host(const Graft& graft, std::size_t a, std::size_t b) {
-  const auto touched = [&](std::size_t k) {
-    std::set<SourceId> sources{graft.sites[k].host};
-    for (const auto& [source, joint] : graft.sites[k].removed) sources.insert(source);
-    return sources;
-  };
-  const std::set<SourceId> first = touched(a);
-  const std::set<SourceId> second = touched(b);
-  return std::any_of(first.begin(), first.end(), [&](SourceId s) { return second.contains(s); });
+std::set<SourceId> hosts_of(const GraftSite& site) {
+  std::set<SourceId> hosts{site.host};
+  for (const auto& [source, joint] : site.removed) hosts.insert(source);
+  return hosts;
+}
+
+// Where one site may discard faces of its hosts: per host, its vertices in reach of the site's field, and all
+// others of their faces.
+std::map<SourceId, std::set<VertexId>> touched_vertices(const Graft& graft, std::size_t site,
+                                                        const std::vector<PolygonMesh>& placed,
+                                                        const std::vector<SourceSelection>& selections,
+                                                        const FieldOptions& options) {
+  const Lattice lattice = field_lattice(site_solids(graft, {site}, placed, selections).solids, options);
+  std::map<SourceId, std::set<VertexId>> touched;
+  if (lattice.count() == 0) return touched;
+  const Eigen::AlignedBox3d box = lattice.box();
+  for (const SourceId host : hosts_of(graft.sites[site])) {
+    const PolygonMesh& mesh = placed[host.index()];
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      const auto face = mesh.face(FaceId(f));
+      const auto is_inside = [&](VertexId v) { return box.contains(mesh.positions[v.index()]); };
+      if (std::any_of(face.begin(), face.end(), is_inside)) touched[host].insert(face.begin(), face.end());
+    }
+  }
+  return touched;
+}
+
+bool meet(const std::map<SourceId, std::set<VertexId>>& a, const std::map<SourceId, std::set<VertexId>>& b) {
+  return std::any_of(a.begin(), a.end(), [&](const auto& entry) {
+    const auto other = b.find(entry.first);
+    return other != b.end() && std::any_of(entry.second.begin(), entry.second.end(),
+                                           [&](VertexId v) { return other->second.contains(v); });
+  });
 }
 
 }  // namespace
@@ -74,17 +99,17 @@ SiteSolids site_solids(const Graft& graft, const SiteGroup& group, const std::ve
 }
 
 std::vector<SiteGroup> group_sites(const Graft& graft, const std::vector<PolygonMesh>& placed,
-                                   const std::vector<SourceSelection>& selections) {
+                                   const std::vector<SourceSelection>& selections,
+                                   const FieldOptions& options) {
   const std::size_t count = graft.sites.size();
-  std::vector<Eigen::AlignedBox3d> regions;
+  std::vector<std::map<SourceId, std::set<VertexId>>> touched(count);
   for (std::size_t k = 0; k < count; ++k)
-    regions.push_back(affected_region(site_solids(graft, {k}, placed, selections).solids));
+    if (graft.sites[k].donor.is_valid()) touched[k] = touched_vertices(graft, k, placed, selections, options);
   std::vector<std::size_t> leader(count);
   std::iota(leader.begin(), leader.end(), std::size_t{0});
   for (std::size_t a = 0; a < count; ++a)
     for (std::size_t b = a + 1; b < count; ++b) {
-      const bool both_bring = graft.sites[a].donor.is_valid() && graft.sites[b].donor.is_valid();
-      if (!both_bring || !share_a_host(graft, a, b) || !regions[a].intersects(regions[b])) continue;
+      if (!meet(touched[a], touched[b])) continue;
       const std::size_t from = std::max(leader[a], leader[b]), to = std::min(leader[a], leader[b]);
       std::replace(leader.begin(), leader.end(), from, to);
     }

@@ -26,9 +26,11 @@ struct SiteSolids {
 SiteSolids site_solids(const Graft& graft, const SiteGroup& group, const std::vector<PolygonMesh>& placed,
                        const std::vector<SourceSelection>& selections);
 
-/// Sites of one group: those that bring a part to the same source and affect regions that overlap (Sec. 6.1:
-/// one field for a composite operation). Sorted by their first site; each site is in one group.
+/// Sites of one group: those that bring a part to the same source where their fields reach the same or
+/// touching faces of it (Sec. 6.1: one field for a composite operation), because the holes that they make
+/// would run into each other. Sorted by their first site; each site is in one group.
 std::vector<SiteGroup> group_sites(const Graft& graft, const std::vector<PolygonMesh>& placed,
-                                   const std::vector<SourceSelection>& selections);
+                                   const std::vector<SourceSelection>& selections,
+                                   const FieldOptions& options);
 
 }  // namespace skinforge

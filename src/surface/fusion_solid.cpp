@@ -7,6 +7,9 @@
 namespace skinforge {
 namespace {
 
+constexpr double kAddedPresence =
+    0.1;  // ours: less is the body that the part was cut from; at 0.25 feather roots were lost
+
 // Closes every opening of the solid by a fan about the centre of its loop.
 void cap_openings(FusionSolid& solid) {
   for (const auto& loop : boundary_loops(solid.triangles)) {
@@ -69,8 +72,9 @@ FusionSolid fusion_solid(const PolygonMesh& mesh, const SiteParticipant& partici
   for (std::size_t t = 0; t < all.triangles.size(); ++t) {
     if (!participant.fusing[all.face[t].index()]) continue;
     const auto& corners = all.triangles[t];
-    const bool is_present = std::any_of(corners.begin(), corners.end(),
-                                        [&](VertexId v) { return participant.presence[v.index()] > 0; });
+    const bool is_present = std::all_of(corners.begin(), corners.end(), [&](VertexId v) {
+      return participant.presence[v.index()] >= kAddedPresence;
+    });
     if (participant.is_added && !is_present) continue;
     Triangle triangle{};
     for (int k = 0; k < 3; ++k) {

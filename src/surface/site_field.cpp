@@ -142,14 +142,19 @@ Eigen::AlignedBox3d affected_region(const std::vector<FusionSolid>& solids) {
   return box;
 }
 
+Lattice field_lattice(const std::vector<FusionSolid>& solids, const FieldOptions& options) {
+  const Box box = affected_region(solids);
+  if (box.isEmpty()) return {};
+  const double voxel = choose_voxel(solids, box, options);
+  if (!(voxel > 0) || !std::isfinite(voxel)) return {};
+  return make_lattice(box, voxel, options);
+}
+
 SiteField build_site_field(const std::vector<FusionSolid>& solids, const FieldOptions& options) {
   SiteField field;
-  const Box box = affected_region(solids);
-  if (box.isEmpty()) return field;
-  const double voxel = choose_voxel(solids, box, options);
-  if (!(voxel > 0) || !std::isfinite(voxel)) return field;
-  field.distance.lattice = make_lattice(box, voxel, options);
+  field.distance.lattice = field_lattice(solids, options);
   const Lattice& lattice = field.distance.lattice;
+  if (lattice.count() == 0) return field;
   field.fillet = options.fillet_voxels * lattice.voxel;
   field.band = options.band_voxels * lattice.voxel;
   std::vector<SourceSamples> sources;
