@@ -1,30 +1,13 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
-#include "base/id.h"
-#include "surface/fairing.h"
+#include "surface/junction_loop.h"
+#include "surface/kept_surface.h"
 #include "surface/site_field.h"
 
 namespace skinforge {
-
-/// A closed border of a preserved mesh that a junction must meet, in the direction in which new faces run
-/// along it.
-struct JunctionLoop {
-  SourceId source;
-  bool is_host = false;
-  std::vector<VertexId> vertices;  ///< of that source's mesh
-  std::vector<Vec3> positions;     ///< placed, metres
-  std::vector<std::vector<Vec3>>
-      inward;  ///< per vertex: its neighbours on preserved faces that are not on the loop
-
-  template <class Archive>
-  friend void fields(Archive& a, JunctionLoop& l) {
-    a(l.source, l.is_host, l.vertices, l.positions, l.inward);
-  }
-};
 
 /// How a junction was made: the ladder of junction.md, best rung first.
 enum class JunctionRung : std::uint8_t {
@@ -49,9 +32,10 @@ struct Junction {
   }
 };
 
-/// Builds the surface between the loops. `kept`: all preserved triangles near the site, for trimming the
-/// isosurface clear of them. Rungs are tried from the best; watertight on every rung, because loops enter as
-/// indices and every ring is closed by triangles that use each of its edges exactly once.
-Junction build_junction(std::vector<JunctionLoop> loops, const SiteField& field, const TriangleBvh& kept);
+/// Builds the surface between the loops, clear of `kept`. Watertight on every rung, because loops enter as
+/// indices and every ring is closed by triangles that use each of its edges exactly once. Rungs are tried
+/// from the best; the first without a fault (`faults_of`) is taken, or the one with least: a bridge or caps
+/// may only stand in for a field that gives a surface if they join every border, too.
+Junction build_junction(std::vector<JunctionLoop> loops, const SiteField& field, const KeptSurface& kept);
 
 }  // namespace skinforge

@@ -9,10 +9,6 @@
 namespace skinforge {
 namespace {
 
-Eigen::AlignedBox3d box_of(const Lattice& lattice) {
-  return {lattice.origin, lattice.point(lattice.size[0] - 1, lattice.size[1] - 1, lattice.size[2] - 1)};
-}
-
 // Gives discarded faces without a site the site of a discarded neighbour, spreading from face to face.
 void spread_sites(const EdgeList& edges, SourceSelection& selection) {
   for (bool changed = true; changed;) {
@@ -80,7 +76,7 @@ void discard_moved_faces(std::span<PreservedSource> sources, std::span<const Sit
                          const std::vector<FusionSolid>& solids, const SiteField& field, std::size_t site,
                          const PreserveOptions& options) {
   if (field.is_empty()) return;
-  const Eigen::AlignedBox3d box = box_of(field.distance.lattice);
+  const Eigen::AlignedBox3d box = field.distance.lattice.box();
   const double tolerance = options.moved_voxels * field.voxel();
   for (const SiteParticipant& participant : participants) {
     PreservedSource& source = sources[participant.source.index()];

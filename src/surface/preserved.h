@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "base/id.h"
-#include "surface/junction.h"
+#include "surface/junction_loop.h"
 #include "surface/selection.h"
+#include "surface/site_field.h"
 
 namespace skinforge {
 

@@ -97,13 +97,22 @@ bool makes_long_edges(const Mesh& mesh, HalfedgeHandle h, double ratio) {
   return false;
 }
 
+// Whether collapsing `h` would join its end, a fixed vertex, to another fixed vertex by a new edge.
+bool makes_chord(const Mesh& mesh, HalfedgeHandle h) {
+  const VertexHandle stays = mesh.to_vertex_handle(h);
+  if (!mesh.data(stays).is_fixed) return false;
+  for (const VertexHandle v : mesh.vv_range(mesh.from_vertex_handle(h)))
+    if (v != stays && mesh.data(v).is_fixed && !mesh.find_halfedge(stays, v).is_valid()) return true;
+  return false;
+}
+
 void collapse_short_edges(Mesh& mesh, const RemeshOptions& options) {
   for (const EdgeHandle e : all_edges(mesh)) {
     if (mesh.status(e).deleted()) continue;
     if (mesh.calc_edge_length(e) >= options.collapse_ratio * target_length(mesh, e)) continue;
     const HalfedgeHandle h = collapsible_halfedge(mesh, e);
     if (!h.is_valid() || !mesh.is_collapse_ok(h)) continue;
-    if (makes_long_edges(mesh, h, options.split_ratio)) continue;
+    if (makes_long_edges(mesh, h, options.split_ratio) || makes_chord(mesh, h)) continue;
     const VertexHandle gone = mesh.from_vertex_handle(h), stays = mesh.to_vertex_handle(h);
     if (turns_faces(mesh, gone, mesh.point(stays), stays)) continue;
     mesh.collapse(h);
@@ -127,6 +136,7 @@ void flip_towards_regular(Mesh& mesh) {
     const VertexHandle a = mesh.from_vertex_handle(h), b = mesh.to_vertex_handle(h);
     const VertexHandle c = mesh.to_vertex_handle(mesh.next_halfedge_handle(h));
     const VertexHandle d = mesh.to_vertex_handle(mesh.next_halfedge_handle(o));
+    if (mesh.data(c).is_fixed && mesh.data(d).is_fixed) continue;
     const int before = valence_defect(mesh, a, 0) + valence_defect(mesh, b, 0) + valence_defect(mesh, c, 0) +
                        valence_defect(mesh, d, 0);
     const int after = valence_defect(mesh, a, -1) + valence_defect(mesh, b, -1) + valence_defect(mesh, c, 1) +

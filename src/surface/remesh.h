@@ -19,8 +19,10 @@ using Projection = std::function<Vec3(const Vec3&)>;
 /// Isotropic remeshing (Botsch and Kobbelt 2004: split, collapse, flip towards valence 6, tangential
 /// relaxation, project) of the inside of a patch. Fixed vertices and the edges between them that lie on the
 /// boundary never change. Target length: harmonic interpolation of the logarithm of the border's edge
-/// lengths, so both neighbours' resolutions meet smoothly. Steps that would turn a face over or break the
-/// manifold are left out. No projection: membrane (free vertices relax in all directions).
+/// lengths, so both neighbours' resolutions meet smoothly. Steps that would turn a face over, break
+/// the manifold or join two fixed vertices by an inner edge (a chord, which may double an edge of the
+/// preserved mesh, and over which weights would step) are left out. No projection: membrane (free vertices
+/// relax in all directions).
 TrianglePatch remesh(const TrianglePatch& patch, const Projection& project,
                      const RemeshOptions& options = {});
 

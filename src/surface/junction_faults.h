@@ -1,0 +1,26 @@
+#pragma once
+
+#include <compare>
+
+#include "surface/junction_loop.h"
+#include "surface/kept_surface.h"
+
+namespace skinforge {
+
+/// What a junction must not have (the bold gates of junction.md (c)). Ordered by weight: the first counts
+/// most.
+struct JunctionFaults {
+  std::size_t non_manifold_edges =
+      0;  ///< edges of the patch that it and the preserved faces use more than twice
+  std::size_t self_intersections = 0;  ///< pairs of triangles with one of the patch
+  std::size_t degenerate_faces = 0;    ///< area below 1e-6 of a squared edge
+
+  auto operator<=>(const JunctionFaults&) const = default;
+  bool any() const { return *this != JunctionFaults(); }
+};
+
+/// Faults of a patch whose fixed vertices are those of `loops`, among the preserved faces.
+JunctionFaults faults_of(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,
+                         const KeptSurface& kept);
+
+}  // namespace skinforge
