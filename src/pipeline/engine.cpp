@@ -106,6 +106,8 @@ void Engine::Session::add(std::unique_ptr<Stage> stage) {
   auto node = std::make_unique<Node>();
   node->info = stage->info();
   node->stage = std::move(stage);
+  SF_EXPECT(!node->info.writes.empty());
+  node->info.writes.push_back(issues_artifact(node->info.writes.front()));
   for (const std::string& name : node->info.writes)
     if (!slots.emplace(name, Slot{nullptr, node.get()}).second)
       throw Error(ExitCode::Internal, "artifact \"" + name + "\" has two makers");
@@ -168,6 +170,7 @@ std::vector<std::shared_ptr<Artifact>> Engine::Session::execute(Node& node, Issu
   const Stopwatch watch(options.jobs == 1);
   node.stage->run(in, out, issues);
   cost = watch.cost();
+  out.put(node.info.writes.back(), issues.issues());
   return out.take();
 }
 

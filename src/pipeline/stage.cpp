@@ -10,6 +10,10 @@ std::string StageInfo::label() const {
   return instance.empty() ? name : name + " " + instance;
 }
 
+std::string issues_artifact(const std::string& first_output) {
+  return "issues:" + first_output;
+}
+
 const Artifact& StageInput::artifact(std::string_view name) const {
   const auto found = artifacts_.find(name);
   if (found == artifacts_.end())

@@ -26,6 +26,10 @@ struct StageInfo {
   std::string label() const;
 };
 
+/// Name of the artifact that holds the issues of a stage (std::vector<Issue>), from the name of its first
+/// output. The engine adds it to what each stage writes, so that a later stage can report them.
+std::string issues_artifact(const std::string& first_output);
+
 /// The artifacts that a stage declared in `reads`, and no others.
 class StageInput {
  public:

@@ -152,7 +152,7 @@ class RecipeReader {
       return input;
     }
     if (!reader.is_object()) reader.fail_expected("a path, or an object with \"file\" or \"recipe\"");
-    const ObjectReader object = reader.object({"file", "recipe", "clips", "pose", "root"});
+    const ObjectReader object = reader.object({"file", "recipe", "clips", "pose"});
     const auto file = object.find("file"), recipe = object.find("recipe");
     if (!file == !recipe) reader.fail("expected one of \"file\" and \"recipe\"");
     input.file = read_path(file ? *file : *recipe);
@@ -161,7 +161,6 @@ class RecipeReader {
       for (const ValueReader& clip : clips->items()) input.clips.push_back(read_path(clip));
     if (const auto pose = object.find("pose"))
       for (const auto& [joint, change] : pose->members()) input.pose[joint] = read_pose(change);
-    if (const auto root = object.find("root")) input.root = root->text();
     return input;
   }
 

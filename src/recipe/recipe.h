@@ -10,6 +10,7 @@
 
 #include "base/archive.h"
 #include "base/error.h"
+#include "base/hash.h"
 
 /// A recipe as plain data: every default is here, and the schema (schemas/recipe.schema.json) repeats it.
 /// Angles in degrees as the person wrote them, lengths in metres. The `fields` of each struct are what a
@@ -43,7 +44,6 @@ struct RecipeInput {
   std::shared_ptr<const Recipe> recipe;    ///< set when the input is made by another recipe
   std::vector<RecipePath> clips;           ///< further files whose clips are added
   std::map<std::string, PoseChange> pose;  ///< by joint name
-  std::string root;                        ///< joint to take as the root; empty = as the file has it
 };
 
 enum class OperationKind : std::uint8_t { Replace, Attach, Remove, Detach };
@@ -95,9 +95,12 @@ struct KeepOrDrop {
 };
 
 struct SurfaceOptions {
-  double voxel_factor = 0.5;    ///< voxel edge over the shorter mean edge length; [0.1, 4]. Paper: 0.8; ours:
-                                ///< 0.5, at 0.8 thin limbs lost their junction (junction.md)
-  int presence_smoothing = 10;  ///< Laplacian passes over the presence; [0, 99]
+  /// Voxel edge over the shorter mean edge length; [0.1, 4]. Departure: the paper (Sec. 6.1) takes 0.8, at
+  /// which thin limbs lost their junction.
+  double voxel_factor = 0.5;
+  /// Laplacian passes over the presence; [0, 99]. Departure: the paper (Sec. 6) makes one, the program of its
+  /// authors ten.
+  int presence_smoothing = 10;
   KeepOrDrop keep_or_drop;
 
   auto operator<=>(const SurfaceOptions&) const = default;
@@ -151,6 +154,11 @@ struct Recipe {
   /// `pointer` itself was left to its default.
   std::string place(const std::string& pointer) const;
 };
+
+/// Digest of what the recipe asks for: every value that can change the result, those of recipes inside it
+/// too, but no path, since where files lie changes nothing (their contents have digests of their own), and
+/// neither comments nor the order of keys.
+Digest recipe_digest(const Recipe& recipe);
 
 /// Reads a recipe: JSON, JSON with comments (.json, .jsonc), YAML (.yaml, .yml). Inputs that are recipes are
 /// read too. Names, kinds, ranges and references between parts of the recipe are checked, files other than

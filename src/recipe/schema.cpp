@@ -77,7 +77,6 @@ Json input() {
                  with_default({{"type", "array"}, {"items", path()}}, Json::array()), {{"walk.fbx"}})},
       {"pose", described("Pose of the input before it is mixed, by joint name.", pose(),
                          {{{"Head", {{"rotate_deg", {10, 0, 0}}}}}})},
-      {"root", described("Joint to take as the root; without it the file's own.", text(), {"Hips"})},
   });
   detailed["oneOf"] = {{{"required", {"file"}}}, {{"required", {"recipe"}}}};
   return {{"anyOf", {path(), detailed}}};
@@ -164,15 +163,18 @@ Json surface() {
                          with_default(number(0, 1, "1"), defaults.keep_or_drop.mean), {0.5})},
   });
   return closed_object({
-      {"voxel_factor", described("Voxel edge over the shorter mean edge length of the two meshes.",
+      {"voxel_factor", described("Voxel edge over the shorter mean edge length of the two meshes. The paper "
+                                 "(Sec. 6.1) takes 0.8, at which thin limbs lost their junction.",
                                  with_default(number(0.1, 4, "factor"), defaults.voxel_factor), {0.8})},
-      {"presence_smoothing", described("Laplacian passes over the presence.",
-                                       {{"type", "integer"},
-                                        {"minimum", 0},
-                                        {"maximum", 99},
-                                        {"default", defaults.presence_smoothing},
-                                        {"unit", "passes"}},
-                                       {10})},
+      {"presence_smoothing",
+       described("Laplacian passes over the presence. The paper (Sec. 6) makes one, the "
+                 "program of its authors ten.",
+                 {{"type", "integer"},
+                  {"minimum", 0},
+                  {"maximum", 99},
+                  {"default", defaults.presence_smoothing},
+                  {"unit", "passes"}},
+                 {10})},
       {"keep_or_drop", described("Rule for components that are neither clearly kept nor clearly gone.", rule,
                                  {{{"variance", 0.04}, {"mean", 0.5}}})},
   });

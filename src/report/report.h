@@ -26,11 +26,18 @@ struct RecipeReport {
   std::string sha256;
 };
 
+/// A file that went in or came out; its name without folders, or relative to the output folder.
+struct FileReport {
+  std::string name;
+  std::int64_t bytes = 0;
+  std::string sha256;
+};
+
 struct InputReport {
   std::string name;
   std::string file;
-  std::string sha256;
   std::string format;
+  std::vector<FileReport> files;
   std::int64_t vertices = 0;
   std::int64_t faces = 0;
   std::int64_t quads = 0;
@@ -73,6 +80,14 @@ struct ResultJointReport {
   std::string source_joint;
 };
 
+/// How much colour jumps across a border.
+struct ColorStepReport {
+  std::int64_t edges = 0;
+  double mean = 0;
+  double p95 = 0;
+  double max = 0;
+};
+
 struct JunctionReport {
   std::int64_t operation = 0;
   std::string rung;
@@ -94,7 +109,7 @@ struct JunctionReport {
   std::optional<Distribution> deviation;
   std::optional<Distribution> edge_length_ratio;
   std::optional<Distribution> border_dihedral;
-  std::optional<Distribution> border_color_step;
+  std::optional<ColorStepReport> border_color_step;
 };
 
 struct MeshReport {
@@ -116,6 +131,10 @@ struct WeightsReport {
   double row_sum_max = 0;
   std::int64_t unweighted_vertices = 0;
   std::vector<std::string> joints_without_weight;
+  double junction_step = 0;
+  double junction_step_blended = 0;
+  double neighbour_step = 0;
+  std::int64_t filled_vertices = 0;
 };
 
 /// A stretch of frames that a completed part takes from one clip, in order.
@@ -143,12 +162,6 @@ struct ClipReport {
   std::optional<double> turn_ratio;
 };
 
-struct OutputReport {
-  std::string name;
-  std::int64_t bytes = 0;
-  std::string sha256;
-};
-
 struct Report {
   std::int64_t report_version = 1;
   ToolReport tool;
@@ -162,7 +175,7 @@ struct Report {
   MeshReport mesh;
   WeightsReport weights;
   std::vector<ClipReport> clips;
-  std::vector<OutputReport> outputs;
+  std::vector<FileReport> outputs;
   std::vector<Issue> issues;
 };
 

@@ -38,15 +38,25 @@ template <class F>
 void describe(const RecipeReport& r, F& f) {
   f("name", r.name, "text", "Name of the recipe");
   f("sha256", r.sha256, "hex digits",
-    "Digest of the recipe's content; comments and key order do not change it");
+    "Digest of what the recipe asks for; paths, comments and key order do not change it");
+}
+
+template <class F>
+void describe(const FileReport& o, F& f) {
+  f("name", o.name, "text", "File name: of an input without folders, of an output relative to its folder");
+  f("bytes", o.bytes, "bytes", "Its size");
+  f("sha256", o.sha256, "hex digits", "Digest of its bytes");
 }
 
 template <class F>
 void describe(const InputReport& i, F& f) {
   f("name", i.name, "text", "Name of the input in the recipe");
-  f("file", i.file, "text", "Name of its file, without folders");
-  f("sha256", i.sha256, "hex digits", "Digest of the file's bytes");
+  f("file", i.file, "text", "Name of its file or recipe, without folders");
   f("format", i.format, "text", "File format");
+  f("files", i.files, "list",
+    "All files it was read from: the model, what it refers to, files with further clips; of a recipe, those "
+    "of "
+    "its inputs");
   f("vertices", i.vertices, "count", "Vertices after welding by bind position");
   f("faces", i.faces, "count", "Polygons");
   f("quads", i.quads, "count", "Polygons with four corners");
@@ -107,6 +117,14 @@ void describe(const ResultJointReport& j, F& f) {
 }
 
 template <class F>
+void describe(const ColorStepReport& c, F& f) {
+  f("edges", c.edges, "count", "Edges between kept and new faces");
+  f("mean", c.mean, "1/255", "Mean step of the largest channel (sRGB)");
+  f("p95", c.p95, "1/255", "95th percentile");
+  f("max", c.max, "1/255", "Largest step");
+}
+
+template <class F>
 void describe(const JunctionReport& j, F& f) {
   f("operation", j.operation, "index", "Operation that made this junction, counted from 1");
   f("rung", j.rung, "text", "Method that made its surface");
@@ -139,7 +157,7 @@ void describe(const JunctionReport& j, F& f) {
   f("border_dihedral", j.border_dihedral, "deg",
     "Angle between the normals of kept and new faces across the border; 0 = flat");
   f("border_color_step", j.border_color_step, "1/255",
-    "Difference of base colour across the border; null when nothing was painted");
+    "Difference of base colour across the border as an engine shows it; null without new faces");
 }
 
 template <class F>
@@ -164,6 +182,13 @@ void describe(const WeightsReport& w, F& f) {
   f("row_sum_max", w.row_sum_max, "ratio", "Greatest sum of a vertex's weights");
   f("unweighted_vertices", w.unweighted_vertices, "count", "Vertices that no joint moves");
   f("joints_without_weight", w.joints_without_weight, "text", "Joints that move no vertex");
+  f("junction_step", w.junction_step, "ratio",
+    "Largest change of a weight row along an edge with a new vertex, 0 = alike, 2 = no joint in common: a "
+    "large one tears the junction in motion");
+  f("junction_step_blended", w.junction_step_blended, "ratio", "The same before smoothing");
+  f("neighbour_step", w.neighbour_step, "ratio", "The same on kept surface within two edges of a junction");
+  f("filled_vertices", w.filled_vertices, "count",
+    "Vertices that had no joint left and took the weights of a neighbour");
 }
 
 template <class F>
@@ -194,13 +219,6 @@ void describe(const ClipReport& c, F& f) {
     "Fastest turn of any joint in any clip of the inputs");
   f("turn_ratio", c.turn_ratio, "ratio",
     "fastest_turn over fastest_source_turn; null when nothing turns there");
-}
-
-template <class F>
-void describe(const OutputReport& o, F& f) {
-  f("name", o.name, "text", "File, relative to the output folder");
-  f("bytes", o.bytes, "bytes", "Its size");
-  f("sha256", o.sha256, "hex digits", "Digest of its bytes");
 }
 
 template <class F>

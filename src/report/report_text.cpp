@@ -83,6 +83,9 @@ std::string weights_line(const WeightsReport& w) {
     line += "; " +
             counted(static_cast<std::int64_t>(w.joints_without_weight.size()), "joint moves", "joints move") +
             " no vertex";
+  if (w.junction_step > w.neighbour_step)
+    line += fmt::format("; weights step by {:.2f} in a junction, {:.2f} beside it", w.junction_step,
+                        w.neighbour_step);
   return line;
 }
 
@@ -116,6 +119,7 @@ std::string junction_text(const JunctionReport& j) {
                                  j.quads, j.triangles, loops_text(j));
   if (j.deviation) text += fmt::format(", within {:.2f} voxels of the field", j.deviation->p95);
   if (j.border_dihedral) text += fmt::format(", {:.0f} deg across the border", j.border_dihedral->mean);
+  if (j.border_color_step) text += fmt::format(", colour steps of {:.1f}", j.border_color_step->mean);
   const std::vector<std::string> found = faults(j);
   text += found.empty() ? ", sound" : "\n     ! " + joined(found);
   if (!j.reason.empty()) text += "\n     " + j.reason;
@@ -194,7 +198,7 @@ std::string all_issue_lines(const Report& report) {
 
 std::string output_lines(const Report& report) {
   TextTable table;
-  for (const OutputReport& o : report.outputs) table.add({o.name, bytes_text(o.bytes)});
+  for (const FileReport& o : report.outputs) table.add({o.name, bytes_text(o.bytes)});
   return table.str();
 }
 

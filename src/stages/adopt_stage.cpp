@@ -1,3 +1,4 @@
+#include "stages/inputs.h"
 #include "stages/stages.h"
 
 namespace skinforge {
@@ -6,14 +7,16 @@ namespace {
 /// Takes the finished character of another recipe as an input.
 class Adopt final : public Stage {
  public:
-  Adopt(ArtifactNames names, std::string result, std::string input)
-      : names_(std::move(names)), result_(std::move(result)), input_(std::move(input)) {}
+  Adopt(ArtifactNames names, const ArtifactNames& nested, const RecipeInput& input)
+      : names_(std::move(names)), result_(nested.result()), input_(input.name) {
+    for (const RecipeInput& inner : input.recipe->inputs) contents_.push_back(nested.contents(inner.name));
+  }
 
   StageInfo info() const override {
     return {.name = "adopt",
             .instance = input_,
             .version = 1,
-            .reads = {result_},
+            .reads = joined({result_}, contents_),
             .writes = {names_.imported(input_), names_.contents(input_)}};
   }
   void add_to_key(Hasher& key) const override { key.add("input", input_); }
@@ -21,8 +24,12 @@ class Adopt final : public Stage {
   void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
     Character character = in.get<Character>(result_);
     character.name = input_;
-    InputContents contents{character.skeleton.names(), {}};
+    InputContents contents{character.skeleton.names(), {}, {}};
     for (const Clip& clip : character.clips) contents.clips.push_back(clip.name);
+    for (const std::string& inner : contents_) {
+      const auto& files = in.get<InputContents>(inner).files;
+      contents.files.insert(contents.files.end(), files.begin(), files.end());
+    }
     out.put(names_.imported(input_), std::move(character));
     out.put(names_.contents(input_), std::move(contents));
   }
@@ -31,13 +38,14 @@ class Adopt final : public Stage {
   ArtifactNames names_;
   std::string result_;
   std::string input_;
+  std::vector<std::string> contents_;  // of the inputs of that recipe
 };
 
 }  // namespace
 
 StagePointer make_adopt_stage(const ArtifactNames& names, const ArtifactNames& nested,
-                              const std::string& input) {
-  return std::make_unique<Adopt>(names, nested.result(), input);
+                              const RecipeInput& input) {
+  return std::make_unique<Adopt>(names, nested, input);
 }
 
 }  // namespace skinforge

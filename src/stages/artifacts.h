@@ -6,7 +6,9 @@
 #include "io/import.h"
 #include "model/character.h"
 #include "skeleton/graft.h"
+#include "skinning/weight_transfer.h"
 #include "surface/assemble.h"
+#include "texture/color_steps.h"
 
 /// Names and types of what passes between stages. Types that belong to one layer are used as they are; these
 /// are the ones that only the pipeline needs.
@@ -32,10 +34,12 @@ struct ArtifactNames {
   std::string vdb(std::size_t site) const { return prefix + "vdb:" + std::to_string(site); }
   std::string surface() const { return prefix + "surface"; }
   std::string bound() const { return prefix + "bound"; }
+  std::string weight_record() const { return prefix + "weight_record"; }
   std::string shares() const { return prefix + "shares"; }
   std::string motion(std::size_t source) const { return prefix + "motion:" + std::to_string(source); }
   std::string clip(const std::string& name) const { return prefix + "clip:" + name; }
   std::string textured() const { return prefix + "textured"; }
+  std::string color_steps() const { return prefix + "color_steps"; }
   std::string result() const { return prefix + "result"; }
   std::string glb() const { return prefix + "glb"; }
   std::string obj() const { return prefix + "obj"; }
@@ -44,16 +48,51 @@ struct ArtifactNames {
   std::string report() const { return prefix + "report"; }
 };
 
-/// What the planning of later stages needs to know of an input, without decoding the character.
+/// A file that an input was read from.
+struct SourceFile {
+  std::string name;  ///< without folders
+  Digest digest;
+  std::uint64_t bytes = 0;
+
+  template <class Archive>
+  friend void fields(Archive& a, SourceFile& f) {
+    a(f.name, f.digest, f.bytes);
+  }
+};
+
+/// What the planning of later stages and the report need to know of an input, without decoding the character.
 struct InputContents {
   std::vector<std::string> joints;
   std::vector<std::string> clips;
+  std::vector<SourceFile> files;  ///< its model first; of a recipe, those of all its inputs
 
   template <class Archive>
   friend void fields(Archive& a, InputContents& c) {
-    a(c.joints, c.clips);
+    a(c.joints, c.clips, c.files);
   }
 };
+
+template <class Archive>
+void fields(Archive& a, WeightSteps& s) {
+  a(s.junction, s.neighbours);
+}
+
+/// How the weights of the junctions came out.
+struct WeightRecord {
+  WeightSteps blended;  ///< before smoothing
+  WeightSteps steps;    ///< in the result
+  std::uint64_t filled_rows = 0;
+
+  template <class Archive>
+  friend void fields(Archive& a, WeightRecord& r) {
+    a(r.blended, r.steps, r.filled_rows);
+  }
+};
+
+template <class Archive>
+void fields(Archive& a, ColorSteps& s) {
+  a(s.edges, s.mean, s.p95, s.largest);
+}
 
 /// The operations with their placements worked out (Sec. 4.1).
 struct PlacedOperations {

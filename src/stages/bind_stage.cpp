@@ -68,7 +68,7 @@ class Bind final : public Stage {
             .reads = joined(
                 character_names(names_, inputs_),
                 {names_.graft(), names_.joint_maps(), names_.placed(), names_.selection(), names_.surface()}),
-            .writes = {names_.bound(), names_.shares()}};
+            .writes = {names_.bound(), names_.shares(), names_.weight_record()}};
   }
   void add_to_key(Hasher& key) const override {
     key.add("name", name_);
@@ -99,6 +99,8 @@ class Bind final : public Stage {
                               transferred.filled_rows));
     bound.weights = std::move(transferred.weights);
     out.put(names_.shares(), std::move(shares.factor));
+    out.put(names_.weight_record(),
+            WeightRecord{transferred.blended, transferred.steps, transferred.filled_rows});
     bound.morphs = carried_morphs(characters, graft, joined_surface);
     merge_materials(bound, characters, inputs_, input_of_faces(graft, joined_surface));
     out.put(names_.bound(), std::move(bound));

@@ -49,7 +49,7 @@ void add_recipe_import(const RecipeInput& input, Engine& engine, const ArtifactN
   engine.run();
   if (!engine.is_ok()) return;
   add_grafts(*input.recipe, engine, ReportLevel::None, nested);
-  engine.add(make_adopt_stage(names, nested, input.name));
+  engine.add(make_adopt_stage(names, nested, input));
 }
 
 bool is_wanted(const AnimationOptions& options, const std::string& clip) {
@@ -100,6 +100,23 @@ std::vector<std::string> inputs_of_sources(const Recipe& recipe) {
   return inputs;
 }
 
+// Issues of all stages so far. Those of an import, or of the recipe behind an input, belong to that input.
+IssueArtifacts issue_artifacts(const Recipe& recipe, const Engine& engine, const ArtifactNames& names) {
+  IssueArtifacts found;
+  found.of_input.resize(recipe.inputs.size());
+  for (const StageInfo& stage : engine.stages()) {
+    const std::string& first = stage.writes.front();
+    const auto owner = std::find_if(recipe.inputs.begin(), recipe.inputs.end(), [&](const RecipeInput& i) {
+      return first == names.imported(i.name) || first.starts_with(nested_names(names, i.name).prefix);
+    });
+    auto& list = owner == recipe.inputs.end()
+                     ? found.of_build
+                     : found.of_input[static_cast<std::size_t>(owner - recipe.inputs.begin())];
+    list.push_back(issues_artifact(first));
+  }
+  return found;
+}
+
 std::string file_name_of_picture(const std::string& name) {
   return "pictures/" + name + ".png";
 }
@@ -135,7 +152,7 @@ void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const A
   engine.add(make_export_stage(names, recipe, clips));
   engine.add(make_validate_stage(names));
   if (level == ReportLevel::None) return;
-  engine.add(make_report_stage(names, recipe, clips));
+  engine.add(make_report_stage(names, recipe, clips, issue_artifacts(recipe, engine, names)));
   if (level == ReportLevel::Full) engine.add(make_pictures_stage(names, recipe, clips));
 }
 

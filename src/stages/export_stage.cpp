@@ -1,6 +1,7 @@
-#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "base/version.h"
+#include "stages/inputs.h"
 #include "stages/stages.h"
 
 namespace skinforge {
@@ -24,7 +25,10 @@ std::vector<MorphTracks> morphs_on_result(const std::vector<MorphTracks>& morphs
 class Export final : public Stage {
  public:
   Export(ArtifactNames names, const Recipe& recipe, std::span<const ClipRequest> clips)
-      : names_(std::move(names)), clips_(clips.begin(), clips.end()) {
+      : names_(std::move(names)),
+        inputs_(input_names(recipe)),
+        recipe_digest_(recipe_digest(recipe)),
+        clips_(clips.begin(), clips.end()) {
     options_.max_influences = static_cast<std::size_t>(recipe.output.influences);
     wants_obj_ = !recipe.output.obj.empty();
   }
@@ -32,12 +36,14 @@ class Export final : public Stage {
   StageInfo info() const override {
     StageInfo info{.name = "export",
                    .version = 1,
-                   .reads = {names_.textured(), names_.graft(), names_.surface()},
+                   .reads = joined(contents_names(names_, inputs_),
+                                   {names_.textured(), names_.graft(), names_.surface()}),
                    .writes = {names_.result(), names_.glb(), names_.obj()}};
     for (const ClipRequest& clip : clips_) info.reads.push_back(names_.clip(clip.name));
     return info;
   }
   void add_to_key(Hasher& key) const override {
+    key.add("recipe", recipe_digest_);
     key.add_value("influences", options_.max_influences);
     key.add_value("obj", wants_obj_);
   }
@@ -45,10 +51,10 @@ class Export final : public Stage {
   void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
     Character result = in.get<Character>(names_.textured());
     const auto& graft = in.get<Graft>(names_.graft());
-    const auto& joined = in.get<SurfaceResult>(names_.surface()).joined;
+    const auto& surface = in.get<SurfaceResult>(names_.surface()).joined;
     for (const ClipRequest& request : clips_) {
       Clip clip = in.get<CompletedClip>(names_.clip(request.name)).clip;
-      clip.morphs = morphs_on_result(clip.morphs, request.input, graft, joined);
+      clip.morphs = morphs_on_result(clip.morphs, request.input, graft, surface);
       result.clips.push_back(std::move(clip));
     }
     validate(result);
@@ -62,13 +68,20 @@ class Export final : public Stage {
   }
 
  private:
-  // What the file was made of; digests only, no paths, dates or hosts.
+  // What the file was made of: names and digests, no paths, dates or hosts.
   std::string provenance(const StageInput& in) const {
-    return fmt::format(R"({{"version":"{}","character":"{}","graft":"{}"}})", kVersion,
-                       in.digest(names_.textured()).hex(), in.digest(names_.graft()).hex());
+    nlohmann::json inputs = nlohmann::json::object();
+    for (const std::string& input : inputs_)
+      for (const SourceFile& file : in.get<InputContents>(names_.contents(input)).files)
+        inputs[input].push_back({{"file", file.name}, {"sha256", file.digest.hex()}});
+    const nlohmann::json extras = {
+        {"version", kVersion}, {"recipe_sha256", recipe_digest_.hex()}, {"inputs", std::move(inputs)}};
+    return extras.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
 
   ArtifactNames names_;
+  std::vector<std::string> inputs_;
+  Digest recipe_digest_;
   std::vector<ClipRequest> clips_;
   GlbOptions options_;
   bool wants_obj_ = false;

@@ -43,13 +43,23 @@ class Import final : public Stage {
                   parameters_.file_names[i].front(), issues);
     character.name = parameters_.input;
     character.mesh = recover_quads(character.mesh);
-    InputContents contents{character.skeleton.names(), {}};
+    InputContents contents{character.skeleton.names(), {}, source_files(in)};
     for (const Clip& clip : character.clips) contents.clips.push_back(clip.name);
     out.put(names_.imported(parameters_.input), std::move(character));
     out.put(names_.contents(parameters_.input), std::move(contents));
   }
 
  private:
+  std::vector<SourceFile> source_files(const StageInput& in) const {
+    std::vector<SourceFile> sources;
+    for (const auto& files : parameters_.file_names)
+      for (const std::string& name : files) {
+        const std::string artifact = names_.file(parameters_.input, sources.size());
+        sources.push_back({name, in.digest(artifact), in.get<Bytes>(artifact).size()});
+      }
+    return sources;
+  }
+
   Character read(const StageInput& in, const std::vector<std::string>& file_names, std::size_t& next,
                  IssueSink& issues) const {
     std::vector<InputFile> files;

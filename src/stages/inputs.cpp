@@ -18,6 +18,12 @@ std::vector<std::string> character_names(const ArtifactNames& names, const std::
   return all;
 }
 
+std::vector<std::string> contents_names(const ArtifactNames& names, const std::vector<std::string>& inputs) {
+  std::vector<std::string> all;
+  for (const std::string& input : inputs) all.push_back(names.contents(input));
+  return all;
+}
+
 std::vector<const Character*> get_characters(const StageInput& in, const ArtifactNames& names,
                                              const std::vector<std::string>& inputs) {
   std::vector<const Character*> characters;

@@ -15,7 +15,8 @@ namespace skinforge {
 /// recipe.
 std::vector<std::string> input_names(const Recipe& recipe);
 
-/// Artifact names of all input characters.
+/// Artifact names of what all inputs hold, and of all input characters.
+std::vector<std::string> contents_names(const ArtifactNames& names, const std::vector<std::string>& inputs);
 std::vector<std::string> character_names(const ArtifactNames& names, const std::vector<std::string>& inputs);
 
 /// The input characters themselves.

@@ -5,26 +5,13 @@
 #include "report/measures.h"
 #include "report/report_json.h"
 #include "stages/inputs.h"
+#include "stages/junction_report.h"
 #include "stages/origins.h"
 #include "stages/stages.h"
 #include "surface/junction_measures.h"
 
 namespace skinforge {
 namespace {
-
-const char* name_of(JunctionRung rung) {
-  switch (rung) {
-    case JunctionRung::Field:
-      return "field";
-    case JunctionRung::Bridge:
-      return "bridge";
-    case JunctionRung::Cap:
-      return "cap";
-    case JunctionRung::None:
-      return "none";
-  }
-  return "none";
-}
 
 const char* name_of(GraftKind kind) {
   switch (kind) {
@@ -49,35 +36,6 @@ std::string file_format(const std::string& file) {
   return dot == std::string::npos ? "" : file.substr(dot + 1);
 }
 
-JunctionReport report_junction(const SurfaceResult& surface, std::size_t site, const SiteField& field) {
-  const Junction& junction = surface.junctions[site];
-  JunctionReport r;
-  r.operation = wide(site + 1);
-  r.rung = name_of(junction.rung);
-  r.reason = junction.reason;
-  r.voxel = junction.voxel;
-  for (const JunctionLoop& loop : junction.loops) r.border_loops.push_back(wide(loop.vertices.size()));
-  if (junction.patch.triangles.empty()) return r;
-  const JunctionMeasures m =
-      measure_junction(surface.joined, static_cast<std::int32_t>(site),
-                       junction.rung == JunctionRung::Field ? &field.distance : nullptr);
-  r.components = wide(m.components);
-  r.faces = wide(m.faces);
-  r.quads = wide(m.quads);
-  r.triangles = wide(m.triangles);
-  r.boundary_edges = wide(m.boundary_edges);
-  r.non_manifold_edges = wide(m.non_manifold_edges);
-  r.degenerate_faces = wide(m.degenerate_faces);
-  if (junction.rung == JunctionRung::Field) r.folded_faces = wide(m.folded_faces);
-  r.self_intersections = wide(m.self_intersections);
-  r.irregular_vertices = wide(m.irregular_vertices);
-  r.scaled_jacobian = distribution_of(m.scaled_jacobian);
-  r.deviation = distribution_of(m.deviation);
-  r.edge_length_ratio = distribution_of(m.edge_length_ratio);
-  r.border_dihedral = distribution_of(m.border_dihedral);
-  return r;
-}
-
 ClipReport report_clip(const CompletedClip& completed, const std::string& input) {
   const CompletionRecord& record = completed.record;
   ClipReport r;
@@ -86,6 +44,7 @@ ClipReport report_clip(const CompletedClip& completed, const std::string& input)
   r.source_clip = record.source_clip;
   r.duration = record.duration;
   r.keys = count_keys(completed.clip);
+  r.driven_joints = wide(completed.clip.joints.size());
   std::vector<ChosenFrame> frames;
   for (const CompletionRecord::Choice& c : record.choices)
     frames.push_back({c.source.value, c.time, c.clip, c.clip_time});
@@ -101,37 +60,32 @@ ClipReport report_clip(const CompletedClip& completed, const std::string& input)
 /// report.json: everything a person or a nightly run wants to know of the result.
 class MakeReport final : public Stage {
  public:
-  MakeReport(ArtifactNames names, const Recipe& recipe, std::span<const ClipRequest> clips)
+  MakeReport(ArtifactNames names, const Recipe& recipe, std::span<const ClipRequest> clips,
+             IssueArtifacts issues)
       : names_(std::move(names)),
         inputs_(input_names(recipe)),
         name_(recipe.name),
-        base_(recipe.input_index(recipe.base)),
+        recipe_digest_(recipe_digest(recipe).hex()),
+        glb_(recipe.output.glb),
+        obj_(recipe.output.obj),
         clips_(clips.begin(), clips.end()),
-        site_count_(recipe.operations.size()) {
+        site_count_(recipe.operations.size()),
+        issues_(std::move(issues)) {
     for (const RecipeInput& input : recipe.inputs) files_.push_back(input.file.resolved.filename().string());
-    Hasher hasher;
-    hasher.add_value("inputs", inputs_);
-    hasher.add_value("operations", recipe.operations);
-    hasher.add_value("surface", std::array<double, 4>{recipe.surface.voxel_factor,
-                                                      static_cast<double>(recipe.surface.presence_smoothing),
-                                                      recipe.surface.keep_or_drop.variance,
-                                                      recipe.surface.keep_or_drop.mean});
-    hasher.add_value("animation", recipe.animation);
-    hasher.add_value("output", recipe.output);
-    recipe_digest_ = hasher.finish().hex();
-    glb_ = recipe.output.glb;
-    obj_ = recipe.output.obj;
   }
 
   StageInfo info() const override {
     StageInfo info{.name = "report",
                    .version = 1,
-                   .reads = joined(character_names(names_, inputs_),
-                                   {names_.graft(), names_.joint_maps(), names_.surface(), names_.result(),
+                   .reads = joined(joined(character_names(names_, inputs_), contents_names(names_, inputs_)),
+                                   {names_.graft(), names_.joint_maps(), names_.surface(),
+                                    names_.weight_record(), names_.color_steps(), names_.result(),
                                     names_.glb(), names_.obj(), names_.validation()}),
                    .writes = {names_.report()}};
     for (std::size_t k = 0; k < site_count_; ++k) info.reads.push_back(names_.field(k));
     for (const ClipRequest& clip : clips_) info.reads.push_back(names_.clip(clip.name));
+    for (const auto& of_input : issues_.of_input) info.reads = joined(std::move(info.reads), of_input);
+    info.reads = joined(std::move(info.reads), issues_.of_build);
     return info;
   }
 
@@ -152,9 +106,11 @@ class MakeReport final : public Stage {
     add_inputs(in, characters, report);
     add_operations(graft, report);
     add_joints(in, characters, graft, report);
+    const auto& color = in.get<std::vector<ColorSteps>>(names_.color_steps());
     for (std::size_t k = 0; k < site_count_; ++k)
-      report.junctions.push_back(report_junction(surface, k, in.get<SiteField>(names_.field(k))));
+      report.junctions.push_back(report_junction(surface, k, in.get<SiteField>(names_.field(k)), color[k]));
     add_mesh(surface, result, report);
+    set_steps(in.get<WeightRecord>(names_.weight_record()), report.weights);
     for (const ClipRequest& clip : clips_)
       report.clips.push_back(report_clip(in.get<CompletedClip>(names_.clip(clip.name)), inputs_[clip.input]));
     std::vector<LedgerInput> ledger_inputs;
@@ -163,12 +119,29 @@ class MakeReport final : public Stage {
                                  result_origins(characters, inputs_, graft, surface.joined, result, clips_));
     add_output(in, names_.glb(), glb_, report);
     add_output(in, names_.obj(), obj_, report);
+    report.issues = issues_in(in, issues_.of_build);
     const std::string text = to_json(report);
     const auto* begin = reinterpret_cast<const std::byte*>(text.data());
     out.put(names_.report(), Bytes(begin, begin + text.size()));
   }
 
  private:
+  static std::vector<Issue> issues_in(const StageInput& in, const std::vector<std::string>& artifacts) {
+    std::vector<Issue> all;
+    for (const std::string& artifact : artifacts) {
+      const auto& issues = in.get<std::vector<Issue>>(artifact);
+      all.insert(all.end(), issues.begin(), issues.end());
+    }
+    return all;
+  }
+
+  static void set_steps(const WeightRecord& record, WeightsReport& report) {
+    report.junction_step = record.steps.junction;
+    report.junction_step_blended = record.blended.junction;
+    report.neighbour_step = record.steps.neighbours;
+    report.filled_vertices = static_cast<std::int64_t>(record.filled_rows);
+  }
+
   void add_inputs(const StageInput& in, const std::vector<const Character*>& characters,
                   Report& report) const {
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
@@ -176,7 +149,9 @@ class MakeReport final : public Stage {
       input.name = inputs_[i];
       input.file = files_[i];
       input.format = file_format(files_[i]);
-      input.sha256 = in.digest(names_.character(inputs_[i])).hex();
+      for (const SourceFile& file : in.get<InputContents>(names_.contents(inputs_[i])).files)
+        input.files.push_back({file.name, static_cast<std::int64_t>(file.bytes), file.digest.hex()});
+      input.repairs = issues_in(in, issues_.of_input[i]);
       report.inputs.push_back(std::move(input));
     }
   }
@@ -244,16 +219,16 @@ class MakeReport final : public Stage {
   ArtifactNames names_;
   std::vector<std::string> inputs_, files_;
   std::string name_, recipe_digest_, glb_, obj_;
-  std::size_t base_;
   std::vector<ClipRequest> clips_;
   std::size_t site_count_;
+  IssueArtifacts issues_;
 };
 
 }  // namespace
 
 StagePointer make_report_stage(const ArtifactNames& names, const Recipe& recipe,
-                               std::span<const ClipRequest> clips) {
-  return std::make_unique<MakeReport>(names, recipe, clips);
+                               std::span<const ClipRequest> clips, IssueArtifacts issues) {
+  return std::make_unique<MakeReport>(names, recipe, clips, std::move(issues));
 }
 
 }  // namespace skinforge

@@ -31,9 +31,10 @@ StagePointer make_import_stage(const ArtifactNames& names, ImportParameters para
 /// imported:<input> -> character:<input>: poses it before it is mixed (Sec. 4.1).
 StagePointer make_pose_stage(const ArtifactNames& names, const RecipeInput& input);
 
-/// <nested>result -> character:<input>, contents: a finished recipe as an input of another.
+/// <nested>result, <nested>contents:* -> imported:<input>, contents: a finished recipe as an input of
+/// another.
 StagePointer make_adopt_stage(const ArtifactNames& names, const ArtifactNames& nested,
-                              const std::string& input);
+                              const RecipeInput& input);
 
 /// character:* -> placement: operations with their placements (Sec. 4.1).
 StagePointer make_place_stage(const ArtifactNames& names, const Recipe& recipe);
@@ -53,8 +54,8 @@ StagePointer make_field_stage(const ArtifactNames& names, const Recipe& recipe, 
 /// placed, selection, graft, field:* -> surface (Sec. 6.1).
 StagePointer make_junction_stage(const ArtifactNames& names, const Recipe& recipe);
 
-/// character:*, surface, placed, selection, graft, joint_maps -> bound: the result without clips and junction
-/// colours (Sec. 7).
+/// character:*, surface, placed, selection, graft, joint_maps -> bound, shares, weight_record: the result
+/// without clips and junction colours (Sec. 7).
 StagePointer make_bind_stage(const ArtifactNames& names, const Recipe& recipe);
 
 /// character:<input>, graft, joint_maps -> motion:<source> (Sec. 8.1).
@@ -70,10 +71,10 @@ struct ClipRequest {
 StagePointer make_complete_clip_stage(const ArtifactNames& names, const Recipe& recipe,
                                       std::size_t source_count, const ClipRequest& request);
 
-/// bound, surface, placed, selection, character:* -> textured (Sec. 7.2 and beyond).
+/// bound, surface, placed, shares, character:* -> textured, color_steps (Sec. 7.2 and beyond).
 StagePointer make_texture_stage(const ArtifactNames& names, const Recipe& recipe);
 
-/// textured, clip:* -> result, glb, obj.
+/// textured, clip:*, contents:* -> result, glb, obj.
 StagePointer make_export_stage(const ArtifactNames& names, const Recipe& recipe,
                                std::span<const ClipRequest> clips);
 
@@ -84,8 +85,14 @@ StagePointer make_validate_stage(const ArtifactNames& names);
 StagePointer make_pictures_stage(const ArtifactNames& names, const Recipe& recipe,
                                  std::span<const ClipRequest> clips);
 
+/// Artifacts that hold the issues of all stages before the report.
+struct IssueArtifacts {
+  std::vector<std::vector<std::string>> of_input;  ///< of reading each input
+  std::vector<std::string> of_build;               ///< of everything else
+};
+
 /// everything -> report.
 StagePointer make_report_stage(const ArtifactNames& names, const Recipe& recipe,
-                               std::span<const ClipRequest> clips);
+                               std::span<const ClipRequest> clips, IssueArtifacts issues);
 
 }  // namespace skinforge

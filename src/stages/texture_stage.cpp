@@ -1,9 +1,10 @@
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "stages/decoded_images.h"
 #include "stages/inputs.h"
 #include "stages/placed_surfaces.h"
 #include "stages/stages.h"
+#include "texture/color_steps.h"
 #include "texture/junction_texture.h"
 
 namespace skinforge {
@@ -16,8 +17,16 @@ std::vector<FaceId> junction_faces(const JoinedSurface& joined) {
   return faces;
 }
 
+// Faces of each junction.
+std::vector<std::vector<FaceId>> faces_of_sites(const JoinedSurface& joined) {
+  std::vector<std::vector<FaceId>> sites(joined.junction_part.size());
+  for (std::size_t f = 0; f < joined.faces.size(); ++f)
+    if (joined.faces[f].site >= 0) sites[static_cast<std::size_t>(joined.faces[f].site)].push_back(FaceId(f));
+  return sites;
+}
+
 // Gives the junction its material, image and UV set 0.
-void apply(Character& character, const std::vector<FaceId>& faces, JunctionTexture texture,
+void apply(Character& character, const std::vector<FaceId>& faces, JunctionTexture& texture,
            const JoinedSurface& joined) {
   PolygonMesh& mesh = character.mesh;
   if (texture.base_color.width > 0) {
@@ -35,6 +44,18 @@ void apply(Character& character, const std::vector<FaceId>& faces, JunctionTextu
   character.materials.push_back(std::move(texture.material));
 }
 
+// The images of the result: those of the inputs, decoded before, and the junction's own as the last.
+std::vector<Raster> result_images(const Character& result, const std::vector<const Character*>& inputs,
+                                  std::vector<std::vector<Raster>> decoded, Raster baked) {
+  std::vector<Raster> images(result.images.size());
+  for (std::size_t k = 0; k < images.size(); ++k)
+    for (std::size_t i = 0; i < inputs.size() && images[k].width == 0; ++i)
+      for (std::size_t n = 0; n < decoded[i].size() && images[k].width == 0; ++n)
+        if (inputs[i]->images[n].bytes == result.images[k].bytes) images[k] = std::move(decoded[i][n]);
+  if (baked.width > 0) images.back() = std::move(baked);
+  return images;
+}
+
 /// Colour for the junction, baked from its neighbours (Sec. 7.2 leaves this open).
 class Texture final : public Stage {
  public:
@@ -47,7 +68,7 @@ class Texture final : public Stage {
         .version = 1,
         .reads = joined(character_names(names_, inputs_),
                         {names_.graft(), names_.placed(), names_.surface(), names_.bound(), names_.shares()}),
-        .writes = {names_.textured()}};
+        .writes = {names_.textured(), names_.color_steps()}};
   }
   void add_to_key(Hasher&) const override {}
 
@@ -55,20 +76,31 @@ class Texture final : public Stage {
     Character character = in.get<Character>(names_.bound());
     const auto& joined_surface = in.get<SurfaceResult>(names_.surface()).joined;
     const std::vector<FaceId> faces = junction_faces(joined_surface);
-    if (!faces.empty()) apply(character, faces, bake(in, character, faces, issues), joined_surface);
+    std::vector<ColorSteps> steps(joined_surface.junction_part.size());
+    if (!faces.empty()) {
+      const auto characters = get_characters(in, names_, inputs_);
+      std::vector<std::vector<Raster>> images;
+      for (std::size_t i = 0; i < characters.size(); ++i)
+        images.push_back(decoded_images(*characters[i], "input " + inputs_[i], issues));
+      JunctionTexture texture = bake(in, character, faces, characters, images);
+      apply(character, faces, texture, joined_surface);
+      const std::vector<Raster> shown =
+          result_images(character, characters, std::move(images), std::move(texture.base_color));
+      const auto sites = faces_of_sites(joined_surface);
+      for (std::size_t k = 0; k < sites.size(); ++k)
+        steps[k] = color_steps({&character.mesh, character.materials, shown}, sites[k]);
+    }
+    out.put(names_.color_steps(), std::move(steps));
     out.put(names_.textured(), std::move(character));
   }
 
  private:
   JunctionTexture bake(const StageInput& in, const Character& character, const std::vector<FaceId>& faces,
-                       IssueSink& issues) const {
-    const auto characters = get_characters(in, names_, inputs_);
+                       const std::vector<const Character*>& characters,
+                       const std::vector<std::vector<Raster>>& images) const {
     const auto& graft = in.get<Graft>(names_.graft());
     const auto& factors = in.get<std::vector<std::vector<double>>>(names_.shares());
     const PlacedSurfaces placed(in.get<std::vector<PolygonMesh>>(names_.placed()));
-    std::vector<std::vector<Raster>> images;
-    for (std::size_t i = 0; i < characters.size(); ++i)
-      images.push_back(decoded_images(*characters[i], "input " + inputs_[i], issues));
     std::vector<TextureSource> sources;
     for (std::size_t s = 0; s < placed.count(); ++s) {
       const std::size_t input = graft.sources[s].input;

@@ -410,6 +410,35 @@ TEST(Plan, NoticesAMissingEntry) {
   EXPECT_THAT(plan_lines(again), ElementsAre("one: run, its cache entry is missing or damaged"));
 }
 
+// What a stage found odd is an artifact, so a later stage can report it; the same for a hit.
+TEST(Engine, IssuesAreAnArtifactOfEachStage) {
+  struct Lister final : Stage {
+    StageInfo info() const override {
+      return {.name = "list", .reads = {issues_artifact("a")}, .writes = {"codes"}};
+    }
+    void add_to_key(Hasher&) const override {}
+    void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
+      std::string codes;
+      for (const Issue& issue : in.get<std::vector<Issue>>(issues_artifact("a"))) codes += issue.code;
+      out.put("codes", Text{codes});
+    }
+  };
+  MemoryStore store;
+  Cache cache(store);
+  for (int round = 0; round < 2; ++round) {
+    Engine engine(cache, {});
+    auto odd = text_stage("odd", {}, {"a"}, "A");
+    odd->extra = [](IssueSink& issues) { issues.note("odd-thing", "a", "it is odd"); };
+    engine.add(std::move(odd));
+    if (round == 1) engine.add(std::make_unique<Lister>());
+    engine.run();
+    EXPECT_EQ(engine.results().at(0).status, round == 0 ? StageStatus::Ran : StageStatus::Hit);
+    if (round == 1) {
+      EXPECT_EQ(engine.get<Text>("codes").value, "odd-thing");
+    }
+  }
+}
+
 TEST(Plan, ResultsSayWhyAStageRan) {
   MemoryStore store;
   Cache cache(store);
@@ -454,7 +483,10 @@ TEST(Damage, IsAMissAWarningAndARepair) {
       Diamond().add_to(engine);
       engine.run();
       EXPECT_TRUE(engine.is_ok());
-      for (const char* name : {"a", "b", "c", "d"}) engine.get<Text>(name);
+      for (const char* name : {"a", "b", "c", "d"}) {
+        engine.get<Text>(name);
+        engine.get<std::vector<Issue>>(issues_artifact(name));
+      }
       EXPECT_EQ(engine.get<Text>("d").value, "DBACs");
       const bool is_plain_miss = kind == damages.size() && path.starts_with("ac/");
       EXPECT_THAT(cache.take_warnings(), SizeIs(is_plain_miss ? 0 : 1));

@@ -45,7 +45,7 @@ std::string with_member(const std::string& member) {
 
 constexpr const char* kCentaur = R"({ // the recipe of the README, with every key
   "$schema": "../schemas/recipe.schema.json", "recipe_version": 1, "name": "centaur",
-  "inputs": { "man": { "file": "../data/man.fbx", "clips": ["walk.fbx"], "root": "Hips",
+  "inputs": { "man": { "file": "../data/man.fbx", "clips": ["walk.fbx"],
                        "pose": { "Head": { "rotate_deg": [10,0,0] }, "a/b~c": { "translate": [0,1,0] } } },
               "horse": "horse.glb" },
   "base": "horse",
@@ -69,7 +69,6 @@ TEST(LoadRecipe, ReadsEveryKey) {
   EXPECT_EQ(man.file.resolved, "data/man.fbx");
   ASSERT_THAT(man.clips, SizeIs(1));
   EXPECT_EQ(man.clips[0].resolved, "recipes/walk.fbx");
-  EXPECT_EQ(man.root, "Hips");
   EXPECT_EQ(man.pose.at("Head").rotate_deg[0], 10);
   EXPECT_EQ(man.pose.at("a/b~c").translate[1], 1);
   EXPECT_EQ(recipe.base, "horse");

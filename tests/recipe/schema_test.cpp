@@ -95,7 +95,7 @@ TEST(RecipeSchema, EveryPropertyIsExplained) {
     EXPECT_TRUE(!(is_number || type == "boolean") || property.contains("default"));
   });
   EXPECT_EQ(count,
-            38);  // 9 of the recipe, 5 + 2 of an input, 6 + 4 of an operation, 3 + 2, 3 and 4 of the rest
+            37);  // 9 of the recipe, 4 + 2 of an input, 6 + 4 of an operation, 3 + 2, 3 and 4 of the rest
 }
 
 struct Case {
@@ -133,7 +133,7 @@ TEST(RecipeSchema, AgreesWithTheParser) {
       {"input object",
        head(
            R"("recipe_version": 1, "name": "x", "base": "a", "inputs": {"a": {"file": "a.glb", "clips": ["c.fbx"],
-               "root": "Hips", "pose": {"Head": {"rotate_deg": [1, 2, 3]}}}})"),
+               "pose": {"Head": {"rotate_deg": [1, 2, 3]}}}})"),
        true},
       {"no version", head(R"("name": "x", "inputs": {"a": "a.glb"}, "base": "a")")},
       {"other version", head(R"("recipe_version": 2, "name": "x", "inputs": {"a": "a.glb"}, "base": "a")")},

@@ -11,8 +11,8 @@ inline Report sample_report() {
   r.recipe = {"centaur", std::string(64, 'a')};
   r.inputs.push_back({"horse",
                       "horse.glb",
-                      std::string(64, 'b'),
                       "glTF 2.0 binary",
+                      {{"horse.glb", 91000, std::string(64, 'b')}},
                       1100,
                       1091,
                       1080,
@@ -25,8 +25,8 @@ inline Report sample_report() {
                       {{"vertices-welded", Severity::Note, "horse.glb", "410 vertices welded"}}});
   r.inputs.push_back({"man",
                       "man.fbx",
-                      std::string(64, 'c'),
                       "FBX 7.4 binary",
+                      {{"man.fbx", 650000, std::string(64, 'c')}, {"walk.fbx", 12000, std::string(64, 'e')}},
                       800,
                       789,
                       700,
@@ -57,9 +57,10 @@ inline Report sample_report() {
   j.self_intersections = 0;
   j.scaled_jacobian = distribution_of({0.5, 0.75, 1.0});
   j.deviation = distribution_of({0.1, 0.2, 0.4});
+  j.border_color_step = {42, 0.5, 2, 3.25};
   r.junctions.push_back(j);
   r.mesh = {1500, 1490, 1400, 90, 1430, 1430.0 / 1490, 1, 12, 0, {1.7, 2.9, 2.4}};
-  r.weights = {4, 1.0, 1.0, 0, {"Helper"}};
+  r.weights = {4, 1.0, 1.0, 0, {"Helper"}, 0.5, 0.75, 0.625, 1};
   r.clips.push_back({"horse_Walk",
                      "horse",
                      "Walk",

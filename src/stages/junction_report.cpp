@@ -1,0 +1,60 @@
+#include "stages/junction_report.h"
+
+#include "report/distribution.h"
+#include "surface/junction_measures.h"
+
+namespace skinforge {
+namespace {
+
+std::int64_t wide(std::size_t n) {
+  return static_cast<std::int64_t>(n);
+}
+
+const char* name_of(JunctionRung rung) {
+  switch (rung) {
+    case JunctionRung::Field:
+      return "field";
+    case JunctionRung::Bridge:
+      return "bridge";
+    case JunctionRung::Cap:
+      return "cap";
+    case JunctionRung::None:
+      return "none";
+  }
+  return "none";
+}
+
+}  // namespace
+
+JunctionReport report_junction(const SurfaceResult& surface, std::size_t site, const SiteField& field,
+                               const ColorSteps& color) {
+  const Junction& junction = surface.junctions[site];
+  JunctionReport r;
+  r.operation = wide(site + 1);
+  r.rung = name_of(junction.rung);
+  r.reason = junction.reason;
+  r.voxel = junction.voxel;
+  for (const JunctionLoop& loop : junction.loops) r.border_loops.push_back(wide(loop.vertices.size()));
+  if (junction.patch.triangles.empty()) return r;
+  const JunctionMeasures m =
+      measure_junction(surface.joined, static_cast<std::int32_t>(site),
+                       junction.rung == JunctionRung::Field ? &field.distance : nullptr);
+  r.components = wide(m.components);
+  r.faces = wide(m.faces);
+  r.quads = wide(m.quads);
+  r.triangles = wide(m.triangles);
+  r.boundary_edges = wide(m.boundary_edges);
+  r.non_manifold_edges = wide(m.non_manifold_edges);
+  r.degenerate_faces = wide(m.degenerate_faces);
+  if (junction.rung == JunctionRung::Field) r.folded_faces = wide(m.folded_faces);
+  r.self_intersections = wide(m.self_intersections);
+  r.irregular_vertices = wide(m.irregular_vertices);
+  r.scaled_jacobian = distribution_of(m.scaled_jacobian);
+  r.deviation = distribution_of(m.deviation);
+  r.edge_length_ratio = distribution_of(m.edge_length_ratio);
+  if (color.edges > 0) r.border_color_step = {wide(color.edges), color.mean, color.p95, color.largest};
+  r.border_dihedral = distribution_of(m.border_dihedral);
+  return r;
+}
+
+}  // namespace skinforge
