@@ -25,11 +25,8 @@ const char* state_name(PlanState state) {
 
 // Plans of one recipe; the later stages are listed once the contents of all inputs are in the cache.
 std::vector<StagePlan> plan_recipe(Session& session, bool& is_complete) {
-  add_imports(session.recipe(), session.engine());
-  std::vector<StagePlan> plans = session.engine().plan();
-  is_complete = session.knows_contents();
-  if (!is_complete) return plans;
-  session.add_grafts();
+  is_complete = session.plan_import();
+  if (is_complete) session.add_grafts();
   return session.engine().plan();
 }
 

@@ -31,7 +31,7 @@ void install_signal_handlers() {
 using Command = ExitCode (*)(const CommandLine&, Console&);
 
 ExitCode help_command(const CommandLine& line, Console&) {
-  print_data(line.help);
+  print_data(line.json ? nlohmann::json{{"help", line.help}}.dump(2) : line.help);
   return ExitCode::Ok;
 }
 

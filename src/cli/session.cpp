@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
@@ -51,19 +50,24 @@ Session::Session(const CommandLine& line, const std::string& recipe_path, Consol
   set_thread_limit(line.jobs);
 }
 
+bool Session::add_imports() {
+  return skinforge::add_imports(recipe_, engine_, [this] { run(); });
+}
+
 bool Session::import() {
-  add_imports(recipe_, engine_);
-  return run();
+  const bool is_complete = add_imports();
+  return run() && is_complete;
+}
+
+bool Session::plan_import() {
+  const auto look_up = [this] { engine_.plan(); };
+  const bool is_complete = skinforge::add_imports(recipe_, engine_, look_up);
+  look_up();
+  return is_complete && knows_contents(recipe_, engine_);
 }
 
 void Session::add_grafts() {
   skinforge::add_grafts(recipe_, engine_, line_.report);
-}
-
-bool Session::knows_contents() {
-  return std::all_of(recipe_.inputs.begin(), recipe_.inputs.end(), [&](const RecipeInput& input) {
-    return engine_.has(ArtifactNames().contents(input.name));
-  });
 }
 
 bool Session::run() {

@@ -22,12 +22,16 @@ class Session {
   const Recipe& recipe() const { return recipe_; }
   Engine& engine() { return engine_; }
 
-  /// Adds the imports and runs them. False when one failed.
+  /// Adds the imports; those of recipes used as inputs run, since what follows from them must be known. False
+  /// when one failed.
+  bool add_imports();
+  /// The same, and runs them all.
   bool import();
+  /// Adds the imports and runs nothing: what is not in the cache stays unknown. Whether the grafts can be
+  /// added.
+  bool plan_import();
   /// Adds everything behind the imports, which must have run well or be hits.
   void add_grafts();
-  /// Whether all input contents are known, so that the grafts can be added.
-  bool knows_contents();
   /// Runs what was added, or what these artifacts need. False when something failed.
   bool run();
   bool run_for(const std::vector<std::string>& artifacts);

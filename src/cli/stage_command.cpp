@@ -26,9 +26,9 @@ std::vector<std::string> labels(const std::vector<StageInfo>& stages) {
 
 // The stage of that label; imports run only when it is not one of them.
 StageInfo require_stage(Session& session, const std::string& label) {
-  add_imports(session.recipe(), session.engine());
+  const bool is_complete = session.add_imports();
   if (const auto stage = find_stage(session.engine().stages(), label)) return *stage;
-  if (!session.run()) return {};
+  if (!session.run() || !is_complete) return {};
   session.add_grafts();
   const auto stages = session.engine().stages();
   if (const auto stage = find_stage(stages, label)) return *stage;

@@ -42,14 +42,16 @@ void add_file_import(const Recipe& recipe, std::size_t i, Engine& engine, const 
   engine.add(make_import_stage(names, std::move(parameters)));
 }
 
-// A recipe used as an input is built whole, so that its clips are known.
-void add_recipe_import(const RecipeInput& input, Engine& engine, const ArtifactNames& names) {
+// A recipe used as an input: its own stages, then one that takes its result.
+bool add_recipe_import(const RecipeInput& input, Engine& engine, const Settle& settle,
+                       const ArtifactNames& names) {
   const ArtifactNames nested = nested_names(names, input.name);
-  add_imports(*input.recipe, engine, nested);
-  engine.run();
-  if (!engine.is_ok()) return;
+  if (!add_imports(*input.recipe, engine, settle, nested)) return false;
+  settle();
+  if (!knows_contents(*input.recipe, engine, nested)) return false;
   add_grafts(*input.recipe, engine, ReportLevel::None, nested);
   engine.add(make_adopt_stage(names, nested, input));
+  return true;
 }
 
 bool is_wanted(const AnimationOptions& options, const std::string& clip) {
@@ -123,15 +125,24 @@ std::string file_name_of_picture(const std::string& name) {
 
 }  // namespace
 
-void add_imports(const Recipe& recipe, Engine& engine, const ArtifactNames& names) {
+bool add_imports(const Recipe& recipe, Engine& engine, const Settle& settle, const ArtifactNames& names) {
+  bool is_complete = true;
   for (std::size_t i = 0; i < recipe.inputs.size(); ++i) {
     const RecipeInput& input = recipe.inputs[i];
+    bool is_added = true;
     if (input.recipe)
-      add_recipe_import(input, engine, names);
+      is_added = add_recipe_import(input, engine, settle, names);
     else
       add_file_import(recipe, i, engine, names);
-    engine.add(make_pose_stage(names, input));
+    if (is_added) engine.add(make_pose_stage(names, input));
+    is_complete = is_complete && is_added;
   }
+  return is_complete;
+}
+
+bool knows_contents(const Recipe& recipe, const Engine& engine, const ArtifactNames& names) {
+  return std::all_of(recipe.inputs.begin(), recipe.inputs.end(),
+                     [&](const RecipeInput& input) { return engine.has(names.contents(input.name)); });
 }
 
 void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const ArtifactNames& names) {

@@ -1,11 +1,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <sstream>
 #include <thread>
 
+#include "base/hash.h"
 #include "testing/assets.h"
 #include "testing/program.h"
 #include "testing/temporary_folder.h"
@@ -32,6 +37,28 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
     if (item.is_regular_file() && item.path().filename() != "timings.json")
       files[fs::relative(item.path(), folder)] = read_text(item.path());
   return files;
+}
+
+Bytes bytes_of(const fs::path& path) {
+  const std::string text = read_text(path);
+  const auto view = std::as_bytes(std::span(text));
+  return {view.begin(), view.end()};
+}
+
+// The JSON chunk of a GLB.
+json glb_json(const fs::path& path) {
+  const std::string file = read_text(path);
+  std::uint32_t length = 0;
+  std::memcpy(&length, file.data() + 12, sizeof length);
+  return json::parse(file.substr(20, length));
+}
+
+// Lines of stderr that are errors; warnings about what was read before may stand beside them.
+std::ptrdiff_t error_lines(const std::string& text) {
+  std::istringstream lines(text);
+  std::ptrdiff_t count = 0;
+  for (std::string line; std::getline(lines, line);) count += line.starts_with("warning: ") ? 0 : 1;
+  return count;
 }
 
 class Build : public ::testing::Test {
@@ -64,6 +91,34 @@ class Build : public ::testing::Test {
     change(recipe);
     std::ofstream(folder / name) << recipe.dump(1);
     return name;
+  }
+
+  // A recipe that takes the horse without its tail and adds nothing.
+  void write_nested() const {
+    copied_recipe("d13_remove_horse_tail.json", [](json&) {});
+    std::ofstream(folder / "outer.json") << R"({"recipe_version": 1, "name": "outer", "base": "tailless",
+               "inputs": {"tailless": {"recipe": "d13_remove_horse_tail.json"}}})";
+  }
+  // cyclic.glb: a joint that is its own grandparent.
+  void write_cyclic(const fs::path& good) const {
+    json document = glb_json(good);
+    for (json& node : document.at("nodes")) {
+      if (!node.contains("children")) continue;
+      document.at("nodes").at(node.at("children").at(0).get<std::size_t>())["children"] = {
+          std::size_t(&node - &document.at("nodes").at(0))};
+      break;
+    }
+    std::string text = document.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::string whole = read_text(good);
+    std::uint32_t length = 0;
+    std::memcpy(&length, whole.data() + 12, sizeof length);
+    const std::string binary = whole.substr(20 + length);
+    const std::array<std::uint32_t, 5> head = {0x46546C67, 2,
+                                               static_cast<std::uint32_t>(20 + text.size() + binary.size()),
+                                               static_cast<std::uint32_t>(text.size()), 0x4E4F534A};
+    std::ofstream file(folder / "cyclic.glb", std::ios::binary);
+    file.write(reinterpret_cast<const char*>(head.data()), sizeof head) << text << binary;
   }
 
   testing::TemporaryFolder folder;
@@ -176,6 +231,107 @@ TEST_F(Build, PlanSaysWhatWillRun) {
   ASSERT_EQ(call(build(horse, "out")).status, 0);
   EXPECT_THAT(plan(), HasSubstr("hit   import horse\n"));
   EXPECT_THAT(plan(), Not(HasSubstr("\nrun ")));
+}
+
+// A recipe as an input: its stages are planned like the others, and nothing is imported or built for it.
+TEST_F(Build, PlanOfARecipeInARecipeRunsNothing) {
+  write_nested();
+  const auto plan = [&] { return call({"plan", "outer.json", "--cache", "cache", "--report", "json"}); };
+  const ProgramResult cold = plan();
+  EXPECT_EQ(cold.status, 0) << cold.err;
+  EXPECT_THAT(cold.out, HasSubstr("run   import horse  (never run)"));
+  EXPECT_THAT(cold.out, HasSubstr("further stages follow"));
+  EXPECT_FALSE(fs::exists(folder / "cache"));
+  ASSERT_EQ(call(build("outer.json", "out")).status, 0);
+  EXPECT_THAT(plan().out, HasSubstr("hit   adopt tailless\n"));
+  EXPECT_THAT(plan().out, Not(HasSubstr("\nrun ")));
+}
+
+// The files behind an input, with their digests, stand in the report and in the GLB; those of a recipe's
+// inputs count as its own.
+TEST_F(Build, SaysWhichFilesItWasMadeOf) {
+  write_nested();
+  ASSERT_EQ(call(build("outer.json", "out")).status, 0);
+  const Bytes bytes = bytes_of(testing::shared_file("assets/quaternius_horse/horse.glb"));
+  const std::string digest = sha256(bytes).hex();
+  const json report = json::parse(read_text(folder / "out/report.json"));
+  const json& input = report.at("inputs").at(0);
+  EXPECT_EQ(input.at("file"), "d13_remove_horse_tail.json");
+  EXPECT_EQ(input.at("files"), json({{{"name", "horse.glb"}, {"bytes", bytes.size()}, {"sha256", digest}}}));
+  EXPECT_THAT(input.at("repairs").dump(), HasSubstr("skin-skeleton-ignored"));
+  const json extras = glb_json(folder / "out/outer.glb").at("asset").at("extras").at("skinforge");
+  EXPECT_EQ(extras.at("version"), report.at("tool").at("version"));
+  EXPECT_EQ(extras.at("recipe_sha256"), report.at("recipe").at("sha256"));
+  EXPECT_EQ(extras.at("inputs"), json({{"tailless", {{{"file", "horse.glb"}, {"sha256", digest}}}}}));
+}
+
+// What a stage finds odd reaches the report, under the operation or input it belongs to.
+TEST_F(Build, ReportCarriesIssuesAndMeasures) {
+  ASSERT_EQ(call(build(horse, "out")).status, 0);
+  const json report = json::parse(read_text(folder / "out/report.json"));
+  EXPECT_THAT(report.at("inputs").at(0).at("repairs").dump(), HasSubstr("skin-skeleton-ignored"));
+  for (const json& issue : report.at("issues")) EXPECT_FALSE(issue.at("code").get<std::string>().empty());
+  const json& weights = report.at("weights");
+  EXPECT_GT(weights.at("junction_step"), 0);
+  EXPECT_LE(weights.at("junction_step"), 2);
+  EXPECT_GT(weights.at("neighbour_step"), 0);
+  const json& step = report.at("junctions").at(0).at("border_color_step");
+  EXPECT_GT(step.at("edges"), 0);
+  EXPECT_LE(step.at("mean"), step.at("max"));
+  for (const json& clip : report.at("clips")) EXPECT_GT(clip.at("driven_joints"), 0) << clip.at("name");
+}
+
+// The bad input of the issue: one line, the right status, nothing written.
+TEST_F(Build, BadInputIsOneLineAndLeavesNothing) {
+  const fs::path good = testing::shared_file("assets/quaternius_horse/horse.glb");
+  fs::copy_file(good, folder / "horse.glb");
+  std::ofstream(folder / "cut.glb") << read_text(good).substr(0, 20000);
+  write_cyclic(good);
+  struct Case {
+    const char* what;
+    const char* recipe;  // behind the version and the name
+    int status;
+    std::vector<const char*> words;
+  };
+  const std::vector<Case> cases = {
+      {"unknown joint",
+       R"("inputs": {"a": "horse.glb"}, "base": "a", "ops": [{"op": "remove", "at": "Nekc1"}])",
+       2,
+       {"x.json:2:", "no joint \"Nekc1\"", "nearest: \"Neck1\""}},
+      {"missing file",
+       R"("inputs": {"a": "none.glb"}, "base": "a")",
+       3,
+       {"x.json:2:", "none.glb: no such file"}},
+      {"truncated GLB",
+       R"("inputs": {"a": "cut.glb"}, "base": "a")",
+       3,
+       {"header says 682356 bytes, file has 20000"}},
+      {"cyclic joints", R"("inputs": {"a": "cyclic.glb"}, "base": "a")", 3, {"cyclic.glb", "cycle"}},
+      {"unknown key",
+       R"("inputs": {"a": "horse.glb"}, "bsae": "a")",
+       2,
+       {"x.json:2:31: unknown key \"bsae\""}},
+      {"wrong type",
+       R"("inputs": {"a": "horse.glb"}, "base": "a", "output": {"influences": "four"})",
+       2,
+       {"x.json:2:69: /output/influences: expected a number"}},
+      {"output leaves the folder",
+       R"("inputs": {"a": "horse.glb"}, "base": "a", "output": {"glb": "../x.glb"})",
+       2,
+       {"/output/glb", "inside the output folder"}}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.what);
+    std::ofstream(folder / "x.json") << "{\"recipe_version\": 1, \"name\": \"x\",\n" << c.recipe << "}";
+    for (const char* verb : {"build", "check"}) {
+      const ProgramResult result = call({verb, "-q", "x.json", "--cache", "cache"});
+      EXPECT_EQ(result.status, c.status);
+      EXPECT_EQ(result.out, "");
+      EXPECT_EQ(error_lines(result.err), 1) << result.err;
+      for (const char* word : c.words) EXPECT_THAT(result.err, HasSubstr(word));
+      EXPECT_FALSE(fs::exists(folder / "out"));
+      EXPECT_FALSE(fs::exists(folder / "x.glb"));
+    }
+  }
 }
 
 TEST_F(Build, OneStageAtATimeGivesTheSameBytes) {
