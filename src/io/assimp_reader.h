@@ -6,7 +6,7 @@
 
 namespace skinforge {
 
-/// A file of any format that Assimp 5.2.5 reads (FBX, COLLADA, OBJ, OFF, PLY, STL, BLEND, ...; not glTF,
+/// A file of any format that Assimp 5.2.5 reads (FBX, COLLADA, OBJ, PLY, STL, BLEND, ...; not glTF,
 /// which it reads wrongly) as it is. Meshes that Assimp split by material are one mesh again, one per node;
 /// polygons stay polygons; key times are seconds; UVs point down as in glTF. An FBX keeps its units and axes,
 /// and `metres_from_file` says how to leave them; the geometric transform of an FBX node is moved into its

@@ -25,7 +25,7 @@ InputFile read_input_file(const std::string& path, std::size_t max_bytes = std::
 /// its own folder only). First the file itself, then the others in order of their first mention. Cheap: no decoding.
 std::vector<InputFile> read_input_files(const std::string& path);
 
-/// The file as its format has it. glTF/GLB by the exact reader in this process; FBX, DAE, OBJ and the rest that Assimp reads by a
+/// The file as its format has it. glTF/GLB and OFF by readers of our own in this process; FBX, DAE, OBJ and the rest that Assimp reads by a
 /// child process with limits (sandbox.h). `files` as from `read_input_files`. Throws Error (BadInput), one line, starting with the path.
 RawScene read_scene(const std::vector<InputFile>& files);
 

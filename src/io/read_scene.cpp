@@ -4,6 +4,7 @@
 
 #include "io/gltf_reader.h"
 #include "io/import.h"
+#include "io/off_reader.h"
 #include "io/sandbox.h"
 
 namespace skinforge {
@@ -13,6 +14,7 @@ RawScene read_scene(const std::vector<InputFile>& files) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".glb" || ending == ".gltf") return read_gltf(files);
+  if (ending == ".off") return read_off(files.front());
   return read_in_child(files);
 }
 
