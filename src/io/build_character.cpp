@@ -8,6 +8,7 @@
 #include "io/build_character_clips.h"
 #include "io/build_character_joints.h"
 #include "io/build_character_mesh.h"
+#include "io/build_character_oddities.h"
 #include "io/import.h"
 #include "io/raw_scene_check.h"
 
@@ -24,6 +25,7 @@ Character settle_scene(const RawScene& scene, const std::string& place, IssueSin
   character.materials = scene.materials;
   character.images = scene.images;
   const std::vector<PartId> parts = build_mesh(scene, bound, joints, place, character, issues);
+  report_oddities(character.mesh, joints, place, issues);
   character.clips = build_clips(scene, joints, parts, place, issues);
   character.skeleton = std::move(joints.skeleton);
   if (character.mesh.face_count() == 0 && character.clips.empty())

@@ -122,7 +122,7 @@ class MeshBuilder {
 
   /// What happened to the faces of one part.
   struct Faces {
-    std::size_t collapsed = 0, thinned = 0, without_normals = 0, bad_attributes = 0;
+    std::size_t collapsed = 0, thinned = 0, without_normals = 0, bad_normals = 0, bad_attributes = 0;
   };
 
   void report(const Part& part, const Faces& faces) {
@@ -136,6 +136,9 @@ class MeshBuilder {
     if (faces.without_normals > 0)
       issues_.note("normals-computed", place,
                    fmt::format("{} faces had no normals; they are flat", faces.without_normals));
+    if (faces.bad_normals > 0)
+      issues_.warn("normals-unusable", place,
+                   fmt::format("normals of {} faces were zero or no numbers; now flat", faces.bad_normals));
     if (faces.bad_attributes > 0)
       issues_.warn("attributes-not-finite", place,
                    fmt::format("{} UVs or colours were no numbers; now 0", faces.bad_attributes));
@@ -263,7 +266,7 @@ class MeshBuilder {
         mesh.colors.push_back(source.primitive.colors.empty() ? Vec4(Vec4::Zero())
                                                               : finite(source.primitive.colors[v], faces));
     }
-    faces.without_normals += computed;
+    (source.primitive.normals.empty() ? faces.without_normals : faces.bad_normals) += computed;
   }
 
   template <class Vector>

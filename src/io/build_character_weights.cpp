@@ -13,7 +13,7 @@ constexpr double kSumRounding = 1e-3;     // ours: four floats, or four 8-bit we
 constexpr double kWeightRounding = 0.01;  // two to three steps of an 8-bit weight
 
 struct Counts {
-  std::size_t not_a_number = 0, negative = 0, sum = 0;
+  std::size_t not_a_number = 0, negative = 0, sum = 0, repeated = 0;
 };
 
 WeightRow usable_row(const RawScene::Primitive& p, const std::vector<JointId>& joints, std::size_t v,
@@ -34,7 +34,10 @@ WeightRow usable_row(const RawScene::Primitive& p, const std::vector<JointId>& j
   counts.negative += had_negative;
   if (row.empty()) return row;
   counts.sum += std::abs(sum - 1) > kSumRounding;
-  return normalised_row(std::move(row));
+  const std::size_t stored = row.size();
+  row = normalised_row(std::move(row));
+  counts.repeated += row.size() < stored;
+  return row;
 }
 
 double weight_in(const WeightRow& row, JointId joint) {
@@ -88,6 +91,10 @@ std::vector<WeightRow> weight_rows(const RawScene::Primitive& primitive, const s
     issues.warn(
         "weights-normalised", place,
         fmt::format("the weights of {} of {} vertices did not sum to 1; scaled", counts.sum, rows.size()));
+  if (counts.repeated > 0)
+    issues.warn("weights-merged", place,
+                fmt::format("{} of {} vertices had several weights for one joint; added up", counts.repeated,
+                            rows.size()));
   return rows;
 }
 

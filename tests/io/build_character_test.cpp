@@ -41,6 +41,8 @@ RawScene::Primitive split_square() {
 
 void weigh(RawScene::Primitive& p, const std::vector<std::vector<std::pair<int, double>>>& rows) {
   p.weight_begin = {0};
+  p.weight_joint.clear();
+  p.weight_value.clear();
   for (const auto& row : rows) {
     for (const auto& [joint, weight] : row) {
       p.weight_joint.push_back(joint);
@@ -355,6 +357,36 @@ TEST(BuildCharacter, MorphTargetsComeAlong) {
   EXPECT_THAT(c.morphs[0].vertices, ::testing::ElementsAre(VertexId(2)));
   EXPECT_EQ(c.morphs[0].default_weight, 0.25);
   EXPECT_EQ(CharacterPlayer(c).pose(c.clips[0], 0.5)[2], Vec3(1, 1, 0.5));
+}
+
+TEST(BuildCharacter, WarnsOfWhatIsHardlyMeant) {
+  const auto warned = [](const RawScene& scene) {
+    IssueSink issues;
+    build_character(scene, "odd", issues);
+    return codes(issues);
+  };
+  const RawScene sound = two_joints();
+  for (const char* code : {"faces-doubled", "joints-flat", "joints-mirrored", "joints-at-one-place",
+                           "weights-merged", "normals-unusable"})
+    EXPECT_FALSE(warned(sound).count(code)) << code;
+  RawScene scene = sound;
+  scene.meshes[0].primitives.push_back(scene.meshes[0].primitives[0]);
+  EXPECT_TRUE(warned(scene).count("faces-doubled"));
+  scene = sound;
+  scene.nodes[2].local.scale.x() = 0;
+  EXPECT_TRUE(warned(scene).count("joints-flat"));
+  scene.nodes[2].local.scale.x() = -1;
+  EXPECT_TRUE(warned(scene).count("joints-mirrored"));
+  scene = sound;
+  scene.skins[0].inverse_bind[1] = Affine3::Identity();
+  EXPECT_TRUE(warned(scene).count("joints-at-one-place"));
+  scene = sound;
+  weigh(scene.meshes[0].primitives[0],
+        {{{0, .5}, {0, .5}}, {{0, 1.}}, {{1, 1.}}, {{0, 1.}}, {{1, 1.}}, {{1, 1.}}});
+  EXPECT_TRUE(warned(scene).count("weights-merged"));
+  scene = sound;
+  scene.meshes[0].primitives[0].normals.assign(6, Vec3::Zero());
+  EXPECT_TRUE(warned(scene).count("normals-unusable"));
 }
 
 TEST(BuildCharacter, KeyTimesAreSorted) {

@@ -1,0 +1,60 @@
+#include "io/build_character_oddities.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <set>
+
+namespace skinforge {
+namespace {
+
+constexpr double kOnePlace = 1e-6;  // of the mesh's diagonal, as for welding
+
+std::size_t doubled_faces(const PolygonMesh& mesh) {
+  std::set<std::vector<VertexId>> seen;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(FaceId(f));
+    std::vector<VertexId> vertices(face.begin(), face.end());
+    std::sort(vertices.begin(), vertices.end());
+    seen.insert(std::move(vertices));
+  }
+  return mesh.face_count() - seen.size();
+}
+
+/// One warning for all joints of which `is_odd` holds, by their number and the first name.
+template <class IsOdd>
+void report_joints(const JointTable& joints, const std::string& code, const char* what, const IsOdd& is_odd,
+                   const std::string& place, IssueSink& issues) {
+  std::size_t count = 0, first = 0;
+  for (std::size_t j = joints.skeleton.size(); j-- > 0;)
+    if (is_odd(joints.rest[j].scale)) ++count, first = j;
+  if (count > 0)
+    issues.warn(code, place,
+                fmt::format("{} joints {} in the file's pose, first \"{}\"", count, what,
+                            joints.skeleton[JointId(first)].name));
+}
+
+bool stand_at_one_place(const Skeleton& skeleton, double tolerance) {
+  Eigen::AlignedBox3d box;
+  for (const Joint& joint : skeleton.joints) box.extend(Vec3(joint.joint_from_model.inverse().translation()));
+  return skeleton.size() > 1 && box.diagonal().norm() <= tolerance;
+}
+
+}  // namespace
+
+void report_oddities(const PolygonMesh& mesh, const JointTable& joints, const std::string& place,
+                     IssueSink& issues) {
+  if (const std::size_t doubled = doubled_faces(mesh); doubled > 0)
+    issues.warn("faces-doubled", place,
+                fmt::format("{} faces lie on others with the same vertices", doubled));
+  const auto is_flat = [](const Vec3& scale) { return (scale.array() == 0).any(); };
+  const auto is_mirrored = [](const Vec3& scale) { return scale.prod() < 0; };
+  report_joints(joints, "joints-flat", "have no extent along an axis", is_flat, place, issues);
+  report_joints(joints, "joints-mirrored", "are mirrored", is_mirrored, place, issues);
+  if (stand_at_one_place(joints.skeleton, kOnePlace * mesh.diagonal()))
+    issues.warn("joints-at-one-place", place,
+                fmt::format("all {} joints stand at one place", joints.skeleton.size()));
+}
+
+}  // namespace skinforge
