@@ -185,6 +185,62 @@ TEST(RecipeSchema, AgreesWithTheParser) {
   }
 }
 
+// An object with the defaults that the schema states for its properties, those inside it too.
+json stated_defaults(const json& object_schema) {
+  json object = json::object();
+  for (const auto& [name, property] : object_schema.at("properties").items()) {
+    if (property.contains("default"))
+      object[name] = property.at("default");
+    else if (property.contains("properties"))
+      object[name] = stated_defaults(property);
+  }
+  return object;
+}
+
+// A recipe that writes out every default is the recipe that leaves them all out.
+TEST(RecipeSchema, DefaultsAreThoseOfTheParser) {
+  const json compiled = schema();
+  const json smallest = {{"recipe_version", 1},
+                         {"name", "x"},
+                         {"base", "a"},
+                         {"inputs", {{"a", {{"file", "a.glb"}}}, {"b", {{"file", "b.glb"}}}}},
+                         {"ops", {{{"op", "replace"}, {"at", "j"}, {"from", "b"}, {"joint", "k"}}}}};
+  json whole = smallest;
+  whole.update(stated_defaults({{"properties",
+                                 {{"surface", compiled.at("properties").at("surface")},
+                                  {"animation", compiled.at("properties").at("animation")},
+                                  {"output", compiled.at("properties").at("output")}}}}));
+  whole["ops"][0].update(stated_defaults(compiled.at("properties").at("ops").at("items")));
+  const json& input = compiled.at("properties").at("inputs").at("additionalProperties").at("anyOf").at(1);
+  whole["inputs"]["b"].update(stated_defaults(input));
+  const json& pose = input.at("properties").at("pose").at("additionalProperties");
+  whole["inputs"]["b"]["pose"]["Head"] = stated_defaults(pose);
+
+  const Recipe little = parse_recipe(smallest.dump(), "x.json"), all = parse_recipe(whole.dump(), "x.json");
+  EXPECT_EQ(whole.at("surface").size(), 3U);
+  EXPECT_EQ(whole.at("ops").at(0).at("place").size(), 4U);
+  EXPECT_EQ(little.operations, all.operations);
+  EXPECT_EQ(little.surface, all.surface);
+  EXPECT_EQ(little.animation, all.animation);
+  EXPECT_EQ(little.output, all.output);
+  EXPECT_EQ(all.inputs.at(1).clips.size(), 0U);
+  EXPECT_EQ(all.inputs.at(1).pose.at("Head"), PoseChange());
+}
+
+// Paths, comments and the order of keys change nothing that is asked for; every value does.
+TEST(RecipeDigest, KnowsWhatIsAskedFor) {
+  const auto digest = [](const std::string& text) { return recipe_digest(parse_recipe(text, "x.json")); };
+  const std::string plain = operation(kPart + R"("place": {"scale": 2})");
+  EXPECT_EQ(digest(plain), digest("// a comment\n" + plain));
+  std::string elsewhere = plain;
+  elsewhere.replace(elsewhere.find("a.glb"), 5, "../other/a.glb");
+  EXPECT_EQ(digest(plain), digest(elsewhere));
+  for (const std::string& other :
+       {operation(kPart + R"("place": {"scale": 3})"), operation(kPart + R"("blend": "union")"),
+        operation(R"("op": "remove", "at": "j")")})
+    EXPECT_NE(digest(plain), digest(other)) << other;
+}
+
 // What a schema cannot say: the parser alone refuses these.
 TEST(RecipeSchema, LeavesReferencesToTheParser) {
   const json compiled = schema();
