@@ -44,14 +44,15 @@ void apply(Character& character, const std::vector<FaceId>& faces, JunctionTextu
   character.materials.push_back(std::move(texture.material));
 }
 
-// The images of the result: those of the inputs, decoded before, and the junction's own as the last.
+// The images of the result: those of the inputs, decoded before, and the junction's own as the last. Several
+// images of the result may be the same image of an input.
 std::vector<Raster> result_images(const Character& result, const std::vector<const Character*>& inputs,
-                                  std::vector<std::vector<Raster>> decoded, Raster baked) {
+                                  const std::vector<std::vector<Raster>>& decoded, Raster baked) {
   std::vector<Raster> images(result.images.size());
   for (std::size_t k = 0; k < images.size(); ++k)
     for (std::size_t i = 0; i < inputs.size() && images[k].width == 0; ++i)
       for (std::size_t n = 0; n < decoded[i].size() && images[k].width == 0; ++n)
-        if (inputs[i]->images[n].bytes == result.images[k].bytes) images[k] = std::move(decoded[i][n]);
+        if (inputs[i]->images[n].bytes == result.images[k].bytes) images[k] = decoded[i][n];
   if (baked.width > 0) images.back() = std::move(baked);
   return images;
 }
@@ -85,7 +86,7 @@ class Texture final : public Stage {
       JunctionTexture texture = bake(in, character, faces, characters, images);
       apply(character, faces, texture, joined_surface);
       const std::vector<Raster> shown =
-          result_images(character, characters, std::move(images), std::move(texture.base_color));
+          result_images(character, characters, images, std::move(texture.base_color));
       const auto sites = faces_of_sites(joined_surface);
       for (std::size_t k = 0; k < sites.size(); ++k)
         steps[k] = color_steps({&character.mesh, character.materials, shown}, sites[k]);
