@@ -17,6 +17,7 @@
 #include "io/assimp_materials.h"
 #include "io/assimp_meshes.h"
 #include "io/assimp_values.h"
+#include "io/dae_check.h"
 #include "io/fbx_animation.h"
 #include "io/fbx_scene.h"
 #include "io/memory_io_system.h"
@@ -246,10 +247,12 @@ class FbxSide {
 
 RawScene read_with_assimp(const std::vector<InputFile>& files) {
   std::optional<FbxSide> fbx;
-  if (lower_extension(files.front().path) == ".fbx") fbx.emplace(files.front());
+  RawScene scene;
+  const std::string extension = lower_extension(files.front().path);
+  if (extension == ".fbx") fbx.emplace(files.front());
+  if (extension == ".dae") check_dae(files.front(), scene.issues);
   const Reading reading(files, false);
   const aiScene& source = reading.scene();
-  RawScene scene;
   scene.skin_ignores_mesh_node = false;
   scene.triangles_only = false;
   const NodeIndex index = read_nodes(source, scene);

@@ -35,10 +35,16 @@ void report_joints(const JointTable& joints, const std::string& code, const char
                             joints.skeleton[JointId(first)].name));
 }
 
-bool stand_at_one_place(const Skeleton& skeleton, double tolerance) {
+/// In the file's pose or in the bind pose.
+bool stand_at_one_place(const JointTable& joints, double tolerance) {
   Eigen::AlignedBox3d box;
-  for (const Joint& joint : skeleton.joints) box.extend(Vec3(joint.joint_from_model.inverse().translation()));
-  return skeleton.size() > 1 && box.diagonal().norm() <= tolerance;
+  bool has_steps = false;  // from a joint to the next, in the file's pose
+  for (std::size_t j = 0; j < joints.skeleton.size(); ++j) {
+    const Joint& joint = joints.skeleton.joints[j];
+    box.extend(Vec3(joint.joint_from_model.inverse().translation()));
+    has_steps |= joint.parent.is_valid() && !joints.rest[j].translation.isZero(0);
+  }
+  return joints.skeleton.size() > 1 && (!has_steps || box.diagonal().norm() <= tolerance);
 }
 
 }  // namespace
@@ -52,7 +58,7 @@ void report_oddities(const PolygonMesh& mesh, const JointTable& joints, const st
   const auto is_mirrored = [](const Vec3& scale) { return scale.prod() < 0; };
   report_joints(joints, "joints-flat", "have no extent along an axis", is_flat, place, issues);
   report_joints(joints, "joints-mirrored", "are mirrored", is_mirrored, place, issues);
-  if (stand_at_one_place(joints.skeleton, kOnePlace * mesh.diagonal()))
+  if (stand_at_one_place(joints, kOnePlace * mesh.diagonal()))
     issues.warn("joints-at-one-place", place,
                 fmt::format("all {} joints stand at one place", joints.skeleton.size()));
 }

@@ -127,7 +127,7 @@ bool JsonPlace::has(std::string_view key) const {
 
 JsonPlace JsonPlace::get(std::string_view key) const {
   auto found = find(key);
-  if (!found) fail(fmt::format("\"{}\" is missing", printable(key)));
+  if (!found) fail(fmt::format("the member \"{}\" is missing", printable(key)));
   return std::move(*found);
 }
 
@@ -186,7 +186,7 @@ std::size_t JsonPlace::count() const {
 
 std::size_t JsonPlace::index(std::size_t limit, std::string_view what) const {
   const std::size_t value = count();
-  if (value >= limit) fail(fmt::format("refers to {} {} of {}", what, value, limit));
+  if (value >= limit) fail(fmt::format("refers to {} {}, the file has {}", what, value, limit));
   return value;
 }
 

@@ -294,7 +294,7 @@ TEST(GltfReader, NamesThePlaceOfBrokenAccessors) {
   file.accessors = R"(,{"bufferView":0,"componentType":5126,"count":9007199254740991,"type":"MAT4"})";
   EXPECT_THAT(message(file), HasSubstr("t.glb: /accessors/1/count: 9007199254740991 elements"));
   file.accessors = R"(,{"bufferView":7,"componentType":5126,"count":3,"type":"VEC3"})";
-  EXPECT_EQ(message(file), "t.glb: /accessors/1/bufferView: refers to buffer view 7 of 1");
+  EXPECT_EQ(message(file), "t.glb: /accessors/1/bufferView: refers to buffer view 7, the file has 1");
   file.accessors = R"(,{"bufferView":0,"componentType":5126,"count":-1,"type":"VEC3"})";
   EXPECT_EQ(message(file), "t.glb: /accessors/1/count: found -1, wanted a whole number from 0");
   file.accessors = R"(,{"bufferView":0,"componentType":5126,"count":"3","type":"VEC3"})";
@@ -313,7 +313,7 @@ TEST(GltfReader, RefusesBrokenTrees) {
   file.nodes = R"({"mesh":0,"children":[0]})";
   EXPECT_THAT(message(file), HasSubstr("node 0 is its own child"));
   file.nodes = R"({"mesh":0,"children":[5]})";
-  EXPECT_THAT(message(file), HasSubstr("refers to node 5 of 1"));
+  EXPECT_THAT(message(file), HasSubstr("refers to node 5, the file has 1"));
 }
 
 /// `depth` nodes in one chain, the mesh in the first.
@@ -335,7 +335,7 @@ TEST(GltfReader, LimitsTheDepthOfTheTree) {
 }
 
 TEST(GltfReader, RefusesWhatItCannotUnderstand) {
-  EXPECT_EQ(message_of_json("{}"), "t.gltf: /: \"asset\" is missing");
+  EXPECT_EQ(message_of_json("{}"), "t.gltf: /: the member \"asset\" is missing");
   EXPECT_THAT(message_of_json(R"({"asset":{"version":"1.0"}})"), HasSubstr("glTF \"1.0\", wanted 2.0"));
   EXPECT_THAT(
       message_of_json(R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]})"),
