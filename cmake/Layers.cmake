@@ -39,15 +39,20 @@ function(skinforge_layer name)
   endforeach()
 endfunction()
 
-# skinforge_layer_tests(<name>): one executable `skinforge_<name>_tests` made of tests/<name>/*_test.cpp.
+# skinforge_layer_tests(<name> [<layer>]): one executable `skinforge_<name>_tests` made of tests/<name>/*.cpp, linked with
+# a layer (default: the one of that name).
 function(skinforge_layer_tests name)
+  set(layer ${name})
+  if(ARGC GREATER 1)
+    set(layer ${ARGV1})
+  endif()
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/tests/${name}/*.cpp")
   if(NOT sources)
     return()
   endif()
   set(target skinforge_${name}_tests)
   add_executable(${target} ${sources})
-  target_link_libraries(${target} PRIVATE skinforge_warnings skinforge_${name} skinforge_testing GTest::gmock_main)
+  target_link_libraries(${target} PRIVATE skinforge_warnings skinforge_${layer} skinforge_testing GTest::gmock_main)
   target_compile_definitions(${target} PRIVATE
     SKINFORGE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SKINFORGE_BINARY="$<TARGET_FILE:skinforge>")
   add_test(NAME ${name} COMMAND ${target})

@@ -3,12 +3,14 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -46,7 +48,9 @@ class GltfEvaluator {
   }
 
   const nlohmann::json& json() const { return json_; }
-  int animation_count() const { return static_cast<int>(json_.value("animations", Json::array()).size()); }
+  int animation_count() const {
+    return json_.contains("animations") ? static_cast<int>(json_["animations"].size()) : 0;
+  }
   std::string animation_name(int animation) const { return json_["animations"][animation].value("name", ""); }
 
   /// Time of the last key of an animation, in seconds.
@@ -61,21 +65,91 @@ class GltfEvaluator {
   Points default_pose() const { return points(rest()); }
 
   /// The pose of an animation at a time; before the first and after the last key of a sampler that key holds.
-  Points pose(int animation, double time) const {
-    std::vector<NodeState> state = rest();
+  Points pose(int animation, double time) const { return points(states(animation, time)); }
+
+  /// Local transforms (parent_from_node) of all nodes at a time of an animation.
+  std::vector<Eigen::Affine3d> local_transforms(int animation, double time) const {
+    std::vector<Eigen::Affine3d> all;
+    for (const NodeState& state : states(animation, time)) all.push_back(local(state));
+    return all;
+  }
+
+  /// Name of a node; "node<index>" where the file has none.
+  std::string node_name(std::size_t node) const {
+    const std::string name = nodes()[node].value("name", "");
+    return name.empty() ? "node" + std::to_string(node) : name;
+  }
+
+  /// The values of a vertex attribute, one row a vertex, in the order of the points; empty rows where a
+  /// primitive has no such attribute.
+  std::vector<std::vector<double>> attribute(const std::string& name) const {
+    std::vector<std::vector<double>> rows;
+    for_each_primitive([&](const Json& node, const Json& primitive) {
+      const std::size_t begin = rows.size(), count = vertex_count(primitive);
+      rows.resize(begin + count);
+      if (!primitive["attributes"].contains(name)) return;
+      const std::vector<double>& values = numbers(primitive["attributes"][name]);
+      const std::size_t width = values.size() / std::max<std::size_t>(count, 1);
+      for (std::size_t v = 0; v < count; ++v)
+        rows[begin + v].assign(values.data() + v * width, values.data() + (v + 1) * width);
+      if (name.starts_with("JOINTS_") && node.contains("skin"))
+        for (std::size_t v = begin; v < rows.size(); ++v)
+          for (double& joint : rows[v])
+            joint = json_["skins"][node["skin"].get<int>()]["joints"][static_cast<std::size_t>(joint)];
+    });
+    return rows;
+  }
+
+  struct Triangle {
+    std::array<std::size_t, 3> vertices{};  ///< places in the list of points
+    std::string material;                   ///< its name
+  };
+
+  std::vector<Triangle> triangles() const {
+    std::vector<Triangle> all;
+    std::size_t begin = 0;
+    for_each_primitive([&](const Json&, const Json& primitive) {
+      const std::size_t count = vertex_count(primitive);
+      std::vector<double> corners(count);
+      for (std::size_t i = 0; i < count; ++i) corners[i] = static_cast<double>(i);
+      if (primitive.contains("indices")) corners = numbers(primitive["indices"]);
+      const std::string material =
+          primitive.contains("material")
+              ? json_["materials"][primitive["material"].get<std::size_t>()].value("name", "")
+              : "";
+      for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+        all.push_back({.vertices = {}, .material = material});
+        for (std::size_t k = 0; k < 3; ++k)
+          all.back().vertices[k] = begin + static_cast<std::size_t>(corners[i + k]);
+      }
+      begin += count;
+    });
+    return all;
+  }
+
+  /// Keys of each rotation that an animation drives: the node, the times, and the value at each time.
+  struct RotationKeys {
+    std::size_t node = 0;
+    std::string interpolation;
+    std::vector<double> times;
+    std::vector<Eigen::Quaterniond> values;
+  };
+
+  std::vector<RotationKeys> rotation_keys(int animation) const {
+    std::vector<RotationKeys> all;
     const Json& a = json_["animations"][animation];
     for (const Json& channel : a["channels"]) {
-      if (!channel["target"].contains("node")) continue;
-      NodeState& node = state[channel["target"]["node"].get<std::size_t>()];
-      const std::string path = channel["target"]["path"];
-      const std::vector<double> value = sample(a["samplers"][channel["sampler"].get<int>()], time, path);
-      if (path == "translation") node.translation = Eigen::Vector3d(value.data());
-      if (path == "scale") node.scale = Eigen::Vector3d(value.data());
-      if (path == "rotation") node.rotation = Eigen::Quaterniond(value.data()).normalized();
-      if (path == "weights") node.weights = value;
-      node.has_matrix = false;
+      if (channel["target"]["path"] != "rotation" || !channel["target"].contains("node")) continue;
+      const Json& sampler = a["samplers"][channel["sampler"].get<int>()];
+      RotationKeys keys{.node = channel["target"]["node"],
+                        .interpolation = sampler.value("interpolation", "LINEAR"),
+                        .times = numbers(sampler["input"]),
+                        .values = {}};
+      for (const double time : keys.times)
+        keys.values.push_back(Eigen::Quaterniond(sample(sampler, time, "rotation").data()).normalized());
+      all.push_back(std::move(keys));
     }
-    return points(state);
+    return all;
   }
 
   /// Skinned vertices as they are stored (mesh space, where the bind matrices apply), others in the default
@@ -106,6 +180,35 @@ class GltfEvaluator {
   };
 
   const Json& nodes() const { return json_["nodes"]; }
+
+  std::vector<NodeState> states(int animation, double time) const {
+    std::vector<NodeState> state = rest();
+    const Json& a = json_["animations"][animation];
+    for (const Json& channel : a["channels"]) {
+      if (!channel["target"].contains("node")) continue;
+      NodeState& node = state[channel["target"]["node"].get<std::size_t>()];
+      const std::string path = channel["target"]["path"];
+      const std::vector<double> value = sample(a["samplers"][channel["sampler"].get<int>()], time, path);
+      if (path == "translation") node.translation = Eigen::Vector3d(value.data());
+      if (path == "scale") node.scale = Eigen::Vector3d(value.data());
+      if (path == "rotation") node.rotation = Eigen::Quaterniond(value.data()).normalized();
+      if (path == "weights") node.weights = value;
+      node.has_matrix = false;
+    }
+    return state;
+  }
+
+  template <class Visit>
+  void for_each_primitive(const Visit& visit) const {
+    for (const Json& node : nodes())
+      if (node.contains("mesh"))
+        for (const Json& primitive : json_["meshes"][node["mesh"].get<int>()]["primitives"])
+          visit(node, primitive);
+  }
+
+  std::size_t vertex_count(const Json& primitive) const {
+    return json_["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()]["count"];
+  }
 
   static std::string read_file(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -143,8 +246,14 @@ class GltfEvaluator {
     return type == "SCALAR" ? 1 : type == "MAT4" ? 16 : type.back() - '0';
   }
 
-  std::vector<double> numbers(const Json& index) const {
-    const Json& a = json_["accessors"][index.get<int>()];
+  // Elements of an accessor, decoded once.
+  const std::vector<double>& numbers(const Json& index) const {
+    const auto [place, is_new] = decoded_.try_emplace(index.get<int>());
+    if (is_new) place->second = decode(json_["accessors"][index.get<int>()]);
+    return place->second;
+  }
+
+  std::vector<double> decode(const Json& a) const {
     if (a.contains("sparse")) throw std::runtime_error("sparse accessors are not for this evaluator");
     const int type = a["componentType"], width = width_of(a);
     const int size = type < 5122 ? 1 : type < 5124 ? 2 : 4;
@@ -220,7 +329,8 @@ class GltfEvaluator {
   }
 
   std::vector<double> sample(const Json& sampler, double time, const std::string& path) const {
-    const std::vector<double> times = numbers(sampler["input"]), values = numbers(sampler["output"]);
+    const std::vector<double>& times = numbers(sampler["input"]);
+    const std::vector<double>& values = numbers(sampler["output"]);
     const std::string mode = sampler.value("interpolation", "LINEAR");
     const std::size_t per_key = mode == "CUBICSPLINE" ? 3 : 1, width = values.size() / times.size() / per_key;
     const auto at = [&](std::size_t key, std::size_t slot) {
@@ -334,6 +444,7 @@ class GltfEvaluator {
   nlohmann::json json_;
   std::vector<std::string> buffers_;
   std::vector<int> parents_;
+  mutable std::map<int, std::vector<double>> decoded_;  // by accessor
 };
 
 /// World positions of all vertices at a time of an animation (`GltfEvaluator`).
