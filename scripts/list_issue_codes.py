@@ -11,8 +11,9 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "src" / "report" / "issues.md"
 CALL = re.compile(r'\b(note|warn)\(\s*"([a-z0-9]+(?:-[a-z0-9]+)+)"\s*,')
+ISSUE = re.compile(r'\{\s*"([a-z0-9]+(?:-[a-z0-9]+)+)"\s*,\s*Severity::(Note|Warning)\s*,')
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
-SEVERITY = {"note": "note", "warn": "warning"}
+SEVERITY = {"note": "note", "warn": "warning", "Note": "note", "Warning": "warning"}
 HEAD = """# Issue codes
 
 Odd but usable input, and what is done about it. Made from the sources by `scripts/list_issue_codes.py`; do not edit.
@@ -24,7 +25,7 @@ Odd but usable input, and what is done about it. Made from the sources by `scrip
 
 
 def arguments(text, start):
-    """The rest of a call from `start` (behind the code's comma) to its closing parenthesis, split at its commas."""
+    """The rest of a call or braces from `start` (behind the code's comma) to where it closes, split at its commas."""
     depth, parts, part, i = 0, [], "", start
     while i < len(text):
         literal = LITERAL.match(text, i)
@@ -32,7 +33,7 @@ def arguments(text, start):
             part += literal.group(0)
             i = literal.end()
             continue
-        if text[i] == ")" and depth == 0:
+        if text[i] in ")}" and depth == 0:
             return parts + [part]
         depth += {"(": 1, "{": 1, "[": 1, ")": -1, "}": -1, "]": -1}.get(text[i], 0)
         if text[i] == "," and depth == 0:
@@ -67,12 +68,14 @@ def found_codes():
     codes = {}
     for path in sorted((ROOT / "src").rglob("*.cpp")) + sorted((ROOT / "src").rglob("*.h")):
         text = path.read_text(encoding="utf-8")
-        for match in CALL.finditer(text):
-            parts = arguments(text, match.end())
+        raised = [(m.group(2), m.group(1), m.end()) for m in CALL.finditer(text)]
+        raised += [(m.group(1), m.group(2), m.end()) for m in ISSUE.finditer(text)]
+        for code, severity, end in raised:
+            parts = arguments(text, end)
             if len(parts) < 2:
                 continue
             where = path.relative_to(ROOT).as_posix()
-            row = codes.setdefault((match.group(2), SEVERITY[match.group(1)]), [set(), set()])
+            row = codes.setdefault((code, SEVERITY[severity]), [set(), set()])
             row[0].add(where.removeprefix("src/"))
             row[1].add(sentence(parts[-1]))
     return codes

@@ -22,17 +22,13 @@ std::size_t doubled_faces(const PolygonMesh& mesh) {
   return mesh.face_count() - seen.size();
 }
 
-/// One warning for all joints of which `is_odd` holds, by their number and the first name.
+/// The joints whose scale in the file's pose is odd.
 template <class IsOdd>
-void report_joints(const JointTable& joints, const std::string& code, const char* what, const IsOdd& is_odd,
-                   const std::string& place, IssueSink& issues) {
-  std::size_t count = 0, first = 0;
-  for (std::size_t j = joints.skeleton.size(); j-- > 0;)
-    if (is_odd(joints.rest[j].scale)) ++count, first = j;
-  if (count > 0)
-    issues.warn(code, place,
-                fmt::format("{} joints {} in the file's pose, first \"{}\"", count, what,
-                            joints.skeleton[JointId(first)].name));
+std::vector<JointId> joints_where(const JointTable& joints, const IsOdd& is_odd) {
+  std::vector<JointId> found;
+  for (std::size_t j = 0; j < joints.skeleton.size(); ++j)
+    if (is_odd(joints.rest[j].scale)) found.emplace_back(j);
+  return found;
 }
 
 /// In the file's pose or in the bind pose.
@@ -56,8 +52,14 @@ void report_oddities(const PolygonMesh& mesh, const JointTable& joints, const st
                 fmt::format("{} faces lie on others with the same vertices", doubled));
   const auto is_flat = [](const Vec3& scale) { return (scale.array() == 0).any(); };
   const auto is_mirrored = [](const Vec3& scale) { return scale.prod() < 0; };
-  report_joints(joints, "joints-flat", "have no extent along an axis", is_flat, place, issues);
-  report_joints(joints, "joints-mirrored", "are mirrored", is_mirrored, place, issues);
+  if (const auto flat = joints_where(joints, is_flat); !flat.empty())
+    issues.warn("joints-flat", place,
+                fmt::format("{} joints have a scale of 0 in the file's pose, first \"{}\"", flat.size(),
+                            joints.skeleton[flat[0]].name));
+  if (const auto mirrored = joints_where(joints, is_mirrored); !mirrored.empty())
+    issues.warn("joints-mirrored", place,
+                fmt::format("{} joints are mirrored in the file's pose, first \"{}\"", mirrored.size(),
+                            joints.skeleton[mirrored[0]].name));
   if (stand_at_one_place(joints, kOnePlace * mesh.diagonal()))
     issues.warn("joints-at-one-place", place,
                 fmt::format("all {} joints stand at one place", joints.skeleton.size()));
