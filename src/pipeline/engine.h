@@ -111,6 +111,8 @@ class Engine {
  private:
   void put_artifact(const std::string& name, std::shared_ptr<Artifact> artifact);
   const Artifact& loaded(const std::string& name);
+  struct Node;
+  struct Slot;
   struct Session;
   std::unique_ptr<Session> session_;
 };
