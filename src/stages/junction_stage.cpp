@@ -1,10 +1,27 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "stages/site_solids.h"
 #include "stages/stages.h"
 
 namespace skinforge {
 namespace {
+
+// Everything that the junctions of one build are made from.
+struct Site {
+  SiteGroup group;
+  SiteSolids solids;
+  const SiteField* field = nullptr;
+};
+
+// One round of making all junctions, and what it left of the sources.
+struct Round {
+  std::vector<PreservedSource> sources;
+  std::vector<Junction> junctions;  // per site
+  std::vector<int> arcs;            // per site
+  JunctionFaults faults;
+};
 
 /// M_J of every operation, and M_R (Sec. 6.1).
 class MakeJunctions final : public Stage {
@@ -14,7 +31,7 @@ class MakeJunctions final : public Stage {
 
   StageInfo info() const override {
     StageInfo info{.name = "junction",
-                   .version = 1,
+                   .version = 2,
                    .reads = {names_.graft(), names_.placed(), names_.selection(), names_.groups()},
                    .writes = {names_.surface()}};
     for (std::size_t k = 0; k < site_count_; ++k) info.reads.push_back(names_.field(k));
@@ -23,45 +40,76 @@ class MakeJunctions final : public Stage {
   void add_to_key(Hasher& key) const override { key.add_value("options", options_); }
 
   void run(const StageInput& in, StageOutput& out, IssueSink& issues) const override {
-    const auto& graft = in.get<Graft>(names_.graft());
     const auto& placed = in.get<std::vector<PolygonMesh>>(names_.placed());
     const auto& selections = in.get<std::vector<SourceSelection>>(names_.selection());
-    const auto& groups = in.get<std::vector<SiteGroup>>(names_.groups());
+    const std::vector<Site> sites = sites_of(in, placed, selections);
     std::vector<PreservedSource> sources;
     for (std::size_t s = 0; s < placed.size(); ++s) sources.push_back({&placed[s], selections[s]});
-    std::vector<SiteSolids> solids;
-    for (const SiteGroup& group : groups) {
-      solids.push_back(site_solids(graft, group, placed, selections));
-      discard_moved_faces(sources, solids.back().participants, solids.back().solids,
-                          in.get<SiteField>(names_.field(group.front())), group.front(), options_);
-    }
-    for (PreservedSource& source : sources) clean_borders(source, options_);
-    const KeptSurface kept = kept_surface(sources);
+    for (const Site& site : sites)
+      discard_moved_faces(sources, site.solids.participants, site.solids.solids, *site.field,
+                          site.group.front(), options_);
+    Round best = best_round(sites, std::move(sources));
+    for (const Site& site : sites)
+      tell(best.junctions[site.group.front()], site.group.front(), best.arcs[site.group.front()], issues);
     SurfaceResult result;
-    result.junctions.resize(site_count_);
-    result.arcs.resize(site_count_, 0);
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const std::size_t first = groups[g].front();
-      result.junctions[first] =
-          build_junction(loops_of(sources, solids[g].participants, groups[g], result.arcs[first]),
-                         in.get<SiteField>(names_.field(first)), kept);
-      for (const std::size_t other : groups[g])
-        if (other != first)
-          result.junctions[other].reason = fmt::format("joined in the junction of operation {}", first + 1);
-      tell(result.junctions[first], first, result.arcs[first], issues);
-    }
-    result.joined = assemble_surface(sources, result.junctions);
-    for (PreservedSource& source : sources) result.kept.push_back(std::move(source.selection.kept));
+    result.joined = assemble_surface(best.sources, best.junctions);
+    result.junctions = std::move(best.junctions);
+    result.arcs = std::move(best.arcs);
+    for (PreservedSource& source : best.sources) result.kept.push_back(std::move(source.selection.kept));
     out.put(names_.surface(), std::move(result));
   }
 
  private:
-  static std::vector<JunctionLoop> loops_of(std::span<const PreservedSource> sources,
-                                            std::span<const SiteParticipant> participants,
-                                            const SiteGroup& group, int& arcs) {
+  std::vector<Site> sites_of(const StageInput& in, const std::vector<PolygonMesh>& placed,
+                             const std::vector<SourceSelection>& selections) const {
+    std::vector<Site> sites;
+    for (const SiteGroup& group : in.get<std::vector<SiteGroup>>(names_.groups()))
+      sites.push_back({group, site_solids(in.get<Graft>(names_.graft()), group, placed, selections),
+                       &in.get<SiteField>(names_.field(group.front()))});
+    return sites;
+  }
+
+  // Where junctions cut preserved faces, those faces go and all junctions are made anew; of all rounds the
+  // one with the least faults counts.
+  Round best_round(const std::vector<Site>& sites, std::vector<PreservedSource> sources) const {
+    constexpr int kRounds = 4;  // ours: later rounds found nothing on the real characters
+    std::optional<Round> best;
+    for (int round = 0; round < kRounds; ++round) {
+      for (PreservedSource& source : sources) clean_borders(source, options_);
+      const KeptSurface kept = kept_surface(sources);
+      Round made = make_round(sites, sources, kept);
+      std::size_t discarded = 0;
+      for (const Site& site : sites) {
+        const Junction& junction = made.junctions[site.group.front()];
+        if (junction.faults.self_intersections > 0)
+          discarded += discard_faces(sources, site.solids.participants,
+                                     faces_cut_by(junction.patch, junction.loops, kept), site.group.front());
+      }
+      if (!best || made.faults < best->faults) best = std::move(made);
+      if (discarded == 0) break;
+    }
+    return std::move(*best);
+  }
+
+  Round make_round(const std::vector<Site>& sites, const std::vector<PreservedSource>& sources,
+                   const KeptSurface& kept) const {
+    Round round{sources, std::vector<Junction>(site_count_), std::vector<int>(site_count_, 0), {}};
+    for (const Site& site : sites) {
+      const std::size_t first = site.group.front();
+      round.junctions[first] = build_junction(loops_of(sources, site, round.arcs[first]), *site.field, kept);
+      round.faults += round.junctions[first].faults;
+      for (const std::size_t other : site.group)
+        if (other != first)
+          round.junctions[other].reason = fmt::format("joined in the junction of operation {}", first + 1);
+    }
+    return round;
+  }
+
+  static std::vector<JunctionLoop> loops_of(std::span<const PreservedSource> sources, const Site& site,
+                                            int& arcs) {
     std::vector<JunctionLoop> loops;
-    for (const SiteParticipant& p : participants) {
-      auto found = loops_of_sites(sources[p.source.index()], p.source, group, p.is_host, arcs);
+    for (const SiteParticipant& p : site.solids.participants) {
+      auto found = loops_of_sites(sources[p.source.index()], p.source, site.group, p.is_host, arcs);
       loops.insert(loops.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
     }
     return loops;
@@ -73,6 +121,7 @@ class MakeJunctions final : public Stage {
     if (junction.rung == JunctionRung::Bridge ||
         (junction.rung == JunctionRung::Cap && !junction.reason.empty()))
       issues.warn("junction-fallback", place, junction.reason);
+    if (junction.faults.any()) issues.warn("junction-faults", place, describe(junction.faults));
     if (arcs > 0)
       issues.warn("border-arc-open", place,
                   fmt::format("{} borders end on an open hem of the input and are left open", arcs));

@@ -147,12 +147,17 @@ FieldJunction::FieldJunction(const std::vector<JunctionLoop>& loops, const SiteF
                              const KeptSurface& kept)
     : loops_(loops), field_(field), kept_(kept), surface_(extract_iso_surface(field.distance)) {}
 
-std::optional<TrianglePatch> FieldJunction::at_clearance(double share, std::string& fault) const {
+std::optional<TrianglePatch> FieldJunction::zipped(double clearance, std::string& fault) const {
   const double widest = std::max(0.75 * field_.voxel(), 0.5 * mean_border_edge(loops_));  // junction.md b.1
-  const Trimmed trimmed = match_rings(trimmed_surface(surface_, kept_, share * widest), loops_, 3 * widest);
+  const Trimmed trimmed =
+      match_rings(trimmed_surface(surface_, kept_, clearance * widest), loops_, 3 * widest);
   fault = fault_of(trimmed, loops_);
   if (!fault.empty()) return std::nullopt;
-  return remesh(zip_to_borders(trimmed, lay_borders(loops_), field_.distance), onto_field(field_.distance));
+  return zip_to_borders(trimmed, lay_borders(loops_), field_.distance);
+}
+
+TrianglePatch FieldJunction::remeshed(const TrianglePatch& zipped, double length_scale) const {
+  return remesh(zipped, onto_field(field_.distance), {.length_scale = length_scale});
 }
 
 }  // namespace skinforge

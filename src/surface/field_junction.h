@@ -15,10 +15,13 @@ class FieldJunction {
   /// Refers to its arguments, which must outlive it.
   FieldJunction(const std::vector<JunctionLoop>& loops, const SiteField& field, const KeptSurface& kept);
 
-  /// The isosurface trimmed clear of the preserved faces by `share` of the full clearance, zipped to the
-  /// borders and remeshed. None when a border has no ring of its own or the two sides stay apart; `fault`
-  /// then says which.
-  std::optional<TrianglePatch> at_clearance(double share, std::string& fault) const;
+  /// The isosurface trimmed clear of the preserved faces by `clearance` (a share of the full one) and zipped
+  /// to the borders. None when a border has no ring of its own or the two sides stay apart; `fault` says
+  /// which.
+  std::optional<TrianglePatch> zipped(double clearance, std::string& fault) const;
+
+  /// A zipped patch remeshed on the isosurface. `length_scale`: of the borders' edge lengths.
+  TrianglePatch remeshed(const TrianglePatch& zipped, double length_scale) const;
 
  private:
   const std::vector<JunctionLoop>& loops_;

@@ -1,7 +1,5 @@
 #include "surface/junction.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -39,28 +37,25 @@ class Ladder {
   std::optional<Attempt> best_;
 };
 
-// Wide clearance leaves the zip room to turn; a narrow one keeps rings apart where borders are close.
+// Wide clearance leaves the zip room to turn; a narrow one keeps rings apart where borders are close. Where
+// the surface is thinner than the borders' edges are long, only a finer mesh stays free of cuts.
 void try_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, const SiteField& field,
                const KeptSurface& kept, std::string& reason) {
   const FieldJunction from_field(loops, field, kept);
-  for (const double share : {1.0, 0.5, 0.25}) {
+  std::vector<TrianglePatch> zipped;
+  for (const double clearance : {1.0, 0.5, 0.25}) {
     std::string fault;
-    if (auto patch = from_field.at_clearance(share, fault))
-      ladder.offer(std::move(*patch), JunctionRung::Field);
-    else if (reason.empty())
-      reason = fault;
-    if (ladder.is_done()) return;
+    if (auto patch = from_field.zipped(clearance, fault)) zipped.push_back(std::move(*patch));
+    if (reason.empty()) reason = fault;
   }
+  for (const double length_scale : {1.0, 0.5, 0.25})
+    for (const TrianglePatch& patch : zipped)
+      if (!ladder.is_done()) ladder.offer(from_field.remeshed(patch, length_scale), JunctionRung::Field);
 }
 
 void try_without_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, JunctionRung rung) {
   for (const bool is_fair : {true, false})
     if (!ladder.is_done()) ladder.offer(bridge_or_cap(loops, is_fair), rung);
-}
-
-std::string describe(const JunctionFaults& f) {
-  return fmt::format("{} non-manifold edges, {} self-intersections, {} degenerate faces",
-                     f.non_manifold_edges, f.self_intersections, f.degenerate_faces);
 }
 
 }  // namespace
@@ -86,6 +81,7 @@ Junction build_junction(std::vector<JunctionLoop> loops, const SiteField& field,
   }
   junction.patch = ladder.best()->patch;
   junction.rung = ladder.best()->rung;
+  junction.faults = ladder.best()->faults;
   if (junction.rung == JunctionRung::Field) junction.reason.clear();
   return junction;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "surface/junction_faults.h"
 #include "surface/junction_loop.h"
 #include "surface/kept_surface.h"
 #include "surface/site_field.h"
@@ -25,10 +26,11 @@ struct Junction {
   JunctionRung rung = JunctionRung::None;
   std::string reason;  ///< why not a better rung; empty for Field, and for Cap where nothing else was asked
   double voxel = 0;    ///< metres; 0 without a field
+  JunctionFaults faults;
 
   template <class Archive>
   friend void fields(Archive& a, Junction& j) {
-    a(j.loops, j.patch.positions, j.patch.triangles, j.patch.fixed, j.rung, j.reason, j.voxel);
+    a(j.loops, j.patch.positions, j.patch.triangles, j.patch.fixed, j.rung, j.reason, j.voxel, j.faults);
   }
 };
 

@@ -1,5 +1,7 @@
 #include "surface/junction_faults.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
@@ -14,11 +16,12 @@ struct Neighbourhood {
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;  // those of the patch first
   std::vector<std::uint8_t> is_new;
+  std::vector<std::pair<SourceId, FaceId>> origin;  // of the preserved ones
 };
 
 Neighbourhood neighbourhood(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,
                             const KeptSurface& kept) {
-  Neighbourhood result{kept.positions, {}, {}};
+  Neighbourhood result{kept.positions, {}, {}, {}};
   std::vector<std::int32_t> name;  // of each vertex of the patch
   for (const JunctionLoop& loop : loops)
     for (const VertexId v : loop.vertices) name.push_back(kept.vertex(loop.source, v));
@@ -31,7 +34,7 @@ Neighbourhood neighbourhood(const TrianglePatch& patch, const std::vector<Juncti
   for (const Triangle& t : patch.triangles) result.triangles.push_back({name[t[0]], name[t[1]], name[t[2]]});
   result.is_new.assign(result.triangles.size(), 1);
   for (const std::int32_t t : kept.bvh.overlapping(box.min(), box.max()))
-    result.triangles.push_back(kept.triangles[t]);
+    result.triangles.push_back(kept.triangles[t]), result.origin.push_back(kept.origin[t]);
   result.is_new.resize(result.triangles.size(), 0);
   return result;
 }
@@ -63,6 +66,24 @@ bool is_degenerate_face(const TrianglePatch& patch, const Triangle& t) {
 
 }  // namespace
 
+JunctionFaults& JunctionFaults::operator+=(const JunctionFaults& other) {
+  non_manifold_edges += other.non_manifold_edges;
+  self_intersections += other.self_intersections;
+  degenerate_faces += other.degenerate_faces;
+  return *this;
+}
+
+std::vector<std::pair<SourceId, FaceId>> faces_cut_by(const TrianglePatch& patch,
+                                                      const std::vector<JunctionLoop>& loops,
+                                                      const KeptSurface& kept) {
+  const Neighbourhood all = neighbourhood(patch, loops, kept);
+  std::vector<std::pair<SourceId, FaceId>> faces;
+  for (const auto& [a, b] : self_intersections(all.positions, all.triangles, all.is_new))
+    if (static_cast<std::size_t>(b) >= patch.triangles.size())  // the higher is the preserved one
+      faces.push_back(all.origin[static_cast<std::size_t>(b) - patch.triangles.size()]);
+  return faces;
+}
+
 JunctionFaults faults_of(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,
                          const KeptSurface& kept) {
   const Neighbourhood all = neighbourhood(patch, loops, kept);
@@ -73,6 +94,11 @@ JunctionFaults faults_of(const TrianglePatch& patch, const std::vector<JunctionL
       std::count_if(patch.triangles.begin(), patch.triangles.end(),
                     [&](const Triangle& t) { return is_degenerate_face(patch, t); }));
   return faults;
+}
+
+std::string describe(const JunctionFaults& f) {
+  return fmt::format("{} non-manifold edges, {} self-intersections, {} degenerate faces",
+                     f.non_manifold_edges, f.self_intersections, f.degenerate_faces);
 }
 
 }  // namespace skinforge

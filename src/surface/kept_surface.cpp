@@ -4,7 +4,8 @@ namespace skinforge {
 
 KeptSurface kept_surface(std::span<const PreservedSource> sources) {
   KeptSurface kept;
-  for (const PreservedSource& source : sources) {
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const PreservedSource& source = sources[s];
     const auto first = static_cast<std::int32_t>(kept.positions.size());
     kept.first.push_back(first);
     kept.positions.insert(kept.positions.end(), source.mesh->positions.begin(), source.mesh->positions.end());
@@ -13,6 +14,7 @@ KeptSurface kept_surface(std::span<const PreservedSource> sources) {
       if (!source.selection.kept[all.face[t].index()]) continue;
       const auto& c = all.triangles[t];
       kept.triangles.push_back({c[0].value + first, c[1].value + first, c[2].value + first});
+      kept.origin.emplace_back(SourceId(s), all.face[t]);
     }
   }
   kept.bvh = TriangleBvh(kept.positions, kept.triangles);

@@ -98,6 +98,22 @@ void discard_moved_faces(std::span<PreservedSource> sources, std::span<const Sit
   }
 }
 
+std::size_t discard_faces(std::span<PreservedSource> sources, std::span<const SiteParticipant> participants,
+                          std::span<const std::pair<SourceId, FaceId>> faces, std::size_t site) {
+  std::size_t discarded = 0;
+  for (const SiteParticipant& participant : participants) {
+    SourceSelection& selection = sources[participant.source.index()].selection;
+    for (const auto& [source, face] : faces) {
+      if (source != participant.source || !participant.fusing[face.index()]) continue;
+      if (!selection.kept[face.index()]) continue;
+      selection.kept[face.index()] = 0;
+      selection.face_site[face.index()] = static_cast<std::int32_t>(site);
+      ++discarded;
+    }
+  }
+  return discarded;
+}
+
 void clean_borders(PreservedSource& source, const PreserveOptions& options) {
   const PolygonMesh& mesh = *source.mesh;
   SourceSelection& selection = source.selection;

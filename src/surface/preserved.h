@@ -36,6 +36,10 @@ void discard_moved_faces(std::span<PreservedSource> sources, std::span<const Sit
                          const std::vector<FusionSolid>& solids, const SiteField& field, std::size_t site,
                          const PreserveOptions& options);
 
+/// Discards preserved faces, if they belong to components that a participant fuses; returns how many.
+std::size_t discard_faces(std::span<PreservedSource> sources, std::span<const SiteParticipant> participants,
+                          std::span<const std::pair<SourceId, FaceId>> faces, std::size_t site);
+
 /// Makes the borders of every source clean: opening, crumbs, straightening, pinches (SkinMixer Sec. 6,
 /// junction.md b.0). Each face discarded here goes to the site of its discarded neighbours.
 void clean_borders(PreservedSource& source, const PreserveOptions& options);

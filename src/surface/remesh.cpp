@@ -201,7 +201,7 @@ void relax(Mesh& mesh, const Projection& project, double share) {
 }
 
 // log of the target length: harmonic over the graph, border vertices hold the mean of their border edges.
-void set_target_lengths(Mesh& mesh) {
+void set_target_lengths(Mesh& mesh, double inner_scale) {
   const int count = static_cast<int>(mesh.n_vertices());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
   std::vector<Eigen::Triplet<double>> entries;
@@ -230,7 +230,8 @@ void set_target_lengths(Mesh& mesh) {
   system.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(system);
   const Eigen::VectorXd logarithm = solver.solve(right);
-  for (const VertexHandle v : mesh.vertices()) mesh.data(v).length = std::exp(logarithm[v.idx()]);
+  for (const VertexHandle v : mesh.vertices())
+    mesh.data(v).length = std::exp(logarithm[v.idx()]) * (mesh.is_boundary(v) ? 1 : inner_scale);
 }
 
 Mesh to_mesh(const TrianglePatch& patch) {
@@ -261,7 +262,7 @@ TrianglePatch remesh(const TrianglePatch& patch, const Projection& project, cons
   Mesh mesh = to_mesh(patch);
   if (mesh.n_faces() != patch.triangles.size())
     return patch;  // not manifold: better unchanged than with a hole
-  set_target_lengths(mesh);
+  set_target_lengths(mesh, options.length_scale);
   for (int pass = 0; pass < options.passes; ++pass) {
     split_long_edges(mesh, options.split_ratio);
     collapse_short_edges(mesh, options);

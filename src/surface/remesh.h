@@ -10,7 +10,8 @@ struct RemeshOptions {
   int passes = 6;                ///< ours: edge lengths settle after five on the real junctions
   double split_ratio = 4.0 / 3;  ///< Botsch and Kobbelt 2004
   double collapse_ratio = 4.0 / 5;
-  double relax = 0.6;  ///< share of the way to the mean of the neighbours, in the tangent plane
+  double length_scale = 1;  ///< of the target lengths inside: below 1 the patch is finer than its borders
+  double relax = 0.6;       ///< share of the way to the mean of the neighbours, in the tangent plane
 };
 
 /// Moves a free vertex back onto the wanted surface; returns the new place.
