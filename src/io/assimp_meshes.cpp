@@ -85,6 +85,14 @@ class MeshReader {
     target.primitives.push_back(std::move(p));
   }
 
+  /// The corner at which a face begins: files leave open how a quad is split, so it begins at an end of its
+  /// shorter diagonal (a tie takes corner 0).
+  static unsigned first_corner(const aiMesh& mesh, const aiFace& face) {
+    if (face.mNumIndices != 4) return 0;
+    const auto at = [&](unsigned c) { return to_vec3(mesh.mVertices[face.mIndices[c]]); };
+    return (at(3) - at(1)).squaredNorm() < (at(2) - at(0)).squaredNorm() ? 1 : 0;
+  }
+
   void read_faces(const aiMesh& mesh, RawScene::Primitive& p) {
     std::size_t thin = 0;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
@@ -93,8 +101,9 @@ class MeshReader {
         ++thin;
         continue;
       }
+      const unsigned first = first_corner(mesh, face);
       for (unsigned c = 0; c < face.mNumIndices; ++c)
-        p.corners.push_back(static_cast<std::int32_t>(face.mIndices[c]));
+        p.corners.push_back(static_cast<std::int32_t>(face.mIndices[(first + c) % face.mNumIndices]));
       p.face_begin.push_back(static_cast<std::int32_t>(p.corners.size()));
     }
     if (thin > 0)

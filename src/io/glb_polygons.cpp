@@ -33,13 +33,10 @@ double least_area(std::span<const Vec3> polygon, const Vec3& normal, std::size_t
   return least;
 }
 
-/// Corners to try first: all of a triangle; of a quad those on its shorter diagonal (a tie takes corner 0-2).
-std::vector<std::size_t> preferred_order(std::span<const Vec3> polygon) {
-  if (polygon.size() == 4 &&
-      (polygon[3] - polygon[1]).squaredNorm() < (polygon[2] - polygon[0]).squaredNorm())
-    return {1, 3, 0, 2};
-  if (polygon.size() == 4) return {0, 2, 1, 3};
-  std::vector<std::size_t> order(polygon.size());
+/// Corners to try first: of a quad those on the diagonal that `triangulate` takes.
+std::vector<std::size_t> preferred_order(std::size_t count) {
+  if (count == 4) return {0, 2, 1, 3};
+  std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   return order;
 }
@@ -48,7 +45,7 @@ std::vector<std::size_t> preferred_order(std::span<const Vec3> polygon) {
 /// that is turned over. A polygon without area has nothing to turn over, and a quad is one fold at worst: any
 /// corner will do.
 std::vector<std::size_t> fan_starts(std::span<const Vec3> polygon) {
-  const std::vector<std::size_t> all = preferred_order(polygon);
+  const std::vector<std::size_t> all = preferred_order(polygon.size());
   const Vec3 normal = area_normal(polygon);
   if (polygon.size() == 3 || !(normal.squaredNorm() > 0)) return all;
   for (const double wanted : {kThin, -kThin}) {

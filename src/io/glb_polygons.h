@@ -15,8 +15,9 @@ namespace skinforge {
 class FanWriter {
  public:
   /// Appends the triangles of one polygon. `positions` and `vertices` are those of its corners, in order; the
-  /// vertices are what is written. A quad is split along its shorter diagonal unless the half of it would
-  /// turn over. A polygon that no fan covers without folding is written as separate triangles (ear clipping).
+  /// vertices are what is written. A quad is split from its first corner unless a half of it would turn over,
+  /// as `triangulate` does. A polygon that no fan covers without folding is written as separate triangles
+  /// (ear clipping).
   void add(std::span<const Vec3> positions, std::span<const std::uint32_t> vertices);
 
   const std::vector<std::uint32_t>& indices() const { return indices_; }

@@ -20,9 +20,7 @@ std::vector<std::array<int, 3>> split_quad(std::span<const Vec3> p, const Vec3& 
   const auto folds = [&](int a, int b, int c) { return (p[b] - p[a]).cross(p[c] - p[a]).dot(normal) <= 0; };
   const bool first_folds = folds(0, 1, 2) || folds(0, 2, 3);
   const bool second_folds = folds(0, 1, 3) || folds(1, 2, 3);
-  const bool first_shorter = (p[2] - p[0]).squaredNorm() <= (p[3] - p[1]).squaredNorm();
-  const bool use_first = first_folds == second_folds ? first_shorter : !first_folds;
-  if (use_first) return {{0, 1, 2}, {0, 2, 3}};
+  if (!first_folds || second_folds) return {{0, 1, 2}, {0, 2, 3}};
   return {{0, 1, 3}, {1, 2, 3}};
 }
 

@@ -60,8 +60,8 @@ struct PolygonMesh {
 Vec3 area_normal(const PolygonMesh& mesh, FaceId face);
 
 /// Corner offsets (0-based within the face) of the triangles of a polygon with `positions` as its corners. A
-/// quad is split along its shorter diagonal (a tie takes corner 0-2), larger polygons by ear clipping in
-/// their mean plane.
+/// quad is split from its first corner, so that whoever makes a quad says how (the other diagonal is taken
+/// only where that one folds and it does not); larger polygons by ear clipping in their mean plane.
 std::vector<std::array<int, 3>> triangulate(std::span<const Vec3> positions);
 
 /// Triangles of a mesh that remember their faces.

@@ -1,6 +1,8 @@
 #include "surface/bridge.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 
 #include "surface/borders.h"
@@ -23,19 +25,28 @@ std::vector<Support> supports_of(const std::vector<JunctionLoop>& loops) {
   return supports;
 }
 
-Vec3 centre_of(const JunctionLoop& loop) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : loop.positions) sum += p;
-  return sum / static_cast<double>(loop.positions.size());
+double distance_to(const std::vector<Vec3>& loop, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& q : loop) least = std::min(least, (p - q).squaredNorm());
+  return std::sqrt(least);
 }
 
-// Host and donor borders in pairs, nearest centres first; what stays single is capped.
+// Mean way from each vertex of one loop to the nearest of the other.
+double mean_distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+  double sum = 0;
+  for (const Vec3& p : from) sum += distance_to(to, p);
+  return sum / static_cast<double>(from.size());
+}
+
+// Host and donor borders in pairs, the two that run nearest to each other first; what stays single is capped.
 std::vector<std::pair<std::size_t, std::size_t>> nearest_pairs(const std::vector<JunctionLoop>& loops) {
   std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> candidates;
   for (std::size_t i = 0; i < loops.size(); ++i)
     for (std::size_t j = 0; j < loops.size(); ++j)
       if (loops[i].is_host && !loops[j].is_host)
-        candidates.push_back({(centre_of(loops[i]) - centre_of(loops[j])).norm(), {i, j}});
+        candidates.push_back({mean_distance(loops[i].positions, loops[j].positions) +
+                                  mean_distance(loops[j].positions, loops[i].positions),
+                              {i, j}});
   std::stable_sort(candidates.begin(), candidates.end());
   std::set<std::size_t> taken;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -47,10 +58,28 @@ std::vector<std::pair<std::size_t, std::size_t>> nearest_pairs(const std::vector
   return pairs;
 }
 
+// The connected piece of the preserved faces that each loop bounds.
+std::vector<std::int32_t> pieces_of(const std::vector<JunctionLoop>& loops, const KeptSurface& kept) {
+  const auto [component, count] = triangle_components(kept.triangles, kept.positions.size());
+  std::vector<std::int32_t> of_vertex(kept.positions.size(), -1);
+  for (std::size_t t = 0; t < kept.triangles.size(); ++t)
+    for (const std::int32_t v : kept.triangles[t]) of_vertex[v] = component[t];
+  std::vector<std::int32_t> pieces;
+  for (const JunctionLoop& loop : loops)
+    pieces.push_back(of_vertex[kept.vertex(loop.source, loop.vertices.front())]);
+  return pieces;
+}
+
 }  // namespace
 
-bool can_bridge_all(const std::vector<JunctionLoop>& loops) {
-  return 2 * nearest_pairs(loops).size() == loops.size();
+bool bridge_joins_all(const std::vector<JunctionLoop>& loops, const KeptSurface& kept) {
+  const std::vector<std::int32_t> piece = pieces_of(loops, kept);
+  const auto pairs = nearest_pairs(loops);
+  return std::all_of(piece.begin(), piece.end(), [&](std::int32_t wanted) {
+    return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
+      return piece[pair.first] == wanted || piece[pair.second] == wanted;
+    });
+  });
 }
 
 TrianglePatch bridge_or_cap(const std::vector<JunctionLoop>& loops, bool is_fair) {

@@ -1,16 +1,17 @@
 #pragma once
 
 #include "surface/junction_loop.h"
+#include "surface/kept_surface.h"
 #include "surface/triangle_patch.h"
 
 namespace skinforge {
 
-/// Whether every border has a partner on the other side, so that a bridge leaves nothing apart.
-bool can_bridge_all(const std::vector<JunctionLoop>& loops);
+/// Whether `bridge_or_cap` joins every piece of the preserved faces that has a border here to the other side.
+bool bridge_joins_all(const std::vector<JunctionLoop>& loops, const KeptSurface& kept);
 
-/// Host and donor borders in pairs, nearest centres first, zipped directly; what stays single is filled. The
-/// inside is remeshed to the borders' edge lengths, and if `is_fair`, it leaves the borders along the slope
-/// of the preserved faces; else it is the tightest membrane.
+/// Host and donor borders in pairs, those that run nearest to each other first, zipped directly; what stays
+/// single is filled. The inside is remeshed to the borders' edge lengths, and if `is_fair`, it leaves the
+/// borders along the slope of the preserved faces; else it is the tightest membrane.
 TrianglePatch bridge_or_cap(const std::vector<JunctionLoop>& loops, bool is_fair);
 
 }  // namespace skinforge

@@ -74,7 +74,7 @@ Junction build_junction(std::vector<JunctionLoop> loops, const SiteField& field,
   Ladder ladder(junction.loops, kept);
   if (has_host && has_donor && !field.is_empty())
     try_field(ladder, junction.loops, field, kept, junction.reason);
-  if (ladder.is_empty() || (!ladder.is_done() && can_bridge_all(junction.loops))) {
+  if (ladder.is_empty() || (!ladder.is_done() && bridge_joins_all(junction.loops, kept))) {
     if (!ladder.is_empty()) junction.reason = "from the field: " + describe(ladder.best()->faults);
     try_without_field(ladder, junction.loops,
                       has_host && has_donor ? JunctionRung::Bridge : JunctionRung::Cap);
