@@ -31,6 +31,11 @@ class Ladder {
     if (!best_ || faults < best_->faults) best_ = Attempt{std::move(patch), rung, faults};
   }
 
+  // For what costs something else: takes it only if it has no fault at all.
+  void offer_if_sound(TrianglePatch patch, JunctionRung rung) {
+    if (!faults_of(patch, loops_, kept_).any()) best_ = Attempt{std::move(patch), rung, {}};
+  }
+
  private:
   const std::vector<JunctionLoop>& loops_;
   const KeptSurface& kept_;
@@ -48,9 +53,12 @@ void try_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, const Sit
     if (auto patch = from_field.zipped(clearance, fault)) zipped.push_back(std::move(*patch));
     if (reason.empty()) reason = fault;
   }
-  for (const double length_scale : {1.0, 0.5, 0.25})
+  for (const TrianglePatch& patch : zipped)
+    if (!ladder.is_done()) ladder.offer(from_field.remeshed(patch, 1), JunctionRung::Field);
+  for (const double length_scale : {0.5, 0.25})
     for (const TrianglePatch& patch : zipped)
-      if (!ladder.is_done()) ladder.offer(from_field.remeshed(patch, length_scale), JunctionRung::Field);
+      if (!ladder.is_done())
+        ladder.offer_if_sound(from_field.remeshed(patch, length_scale), JunctionRung::Field);
 }
 
 void try_without_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, JunctionRung rung) {
