@@ -1,9 +1,9 @@
 #include "pipeline/publish.h"
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 
+#include "base/file_digest.h"
 #include "base/safe_name.h"
 #include "base/text.h"
 
@@ -50,11 +50,7 @@ std::optional<Digest> digest_of_file(const fs::path& path, std::uint64_t size) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path, error)) || fs::file_size(path, error) != size)
     return std::nullopt;
-  Bytes bytes(size);
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-    return std::nullopt;
-  return sha256(bytes);
+  return sha256_of_file(path);
 }
 }  // namespace
 
