@@ -70,6 +70,18 @@ std::vector<Vec3> inward_neighbours(const PolygonMesh& mesh, const SourceSelecti
   return neighbours;
 }
 
+void tidy(const PolygonMesh& mesh, const EdgeList& edges, const PreserveOptions& options, FaceSet& kept) {
+  open_face_set(mesh, edges, kept);
+  drop_crumbs(mesh, edges, kept, options.least_faces);
+  const int border = border_edge_count(mesh, edges, kept);
+  const int allowed =
+      std::max(options.straighten_least, static_cast<int>(std::lround(options.straighten_share * border)));
+  straighten_border(mesh, edges, kept, allowed);
+  drop_pinches(mesh, edges, kept);
+  drop_crumbs(mesh, edges, kept, options.least_faces);
+  drop_pinches(mesh, edges, kept);
+}
+
 }  // namespace
 
 void discard_moved_faces(std::span<PreservedSource> sources, std::span<const SiteParticipant> participants,
@@ -116,18 +128,16 @@ std::size_t discard_faces(std::span<PreservedSource> sources, std::span<const Si
 
 void clean_borders(PreservedSource& source, const PreserveOptions& options) {
   const PolygonMesh& mesh = *source.mesh;
-  SourceSelection& selection = source.selection;
+  FaceSet& kept = source.selection.kept;
   const EdgeList edges = build_edges(mesh);
-  open_face_set(mesh, edges, selection.kept);
-  drop_crumbs(mesh, edges, selection.kept, options.least_faces);
-  const int border = border_edge_count(mesh, edges, selection.kept);
-  const int allowed =
-      std::max(options.straighten_least, static_cast<int>(std::lround(options.straighten_share * border)));
-  straighten_border(mesh, edges, selection.kept, allowed);
-  drop_pinches(mesh, edges, selection.kept);
-  drop_crumbs(mesh, edges, selection.kept, options.least_faces);
-  drop_pinches(mesh, edges, selection.kept);
-  spread_sites(edges, selection);
+  const FaceSet before = kept;
+  tidy(mesh, edges, options, kept);
+  const auto has_any = [](const FaceSet& set) { return std::find(set.begin(), set.end(), 1) != set.end(); };
+  if (!has_any(kept) && has_any(before)) {  // a few faces may be all there is, like the tip of a hand
+    kept = before;
+    drop_pinches(mesh, edges, kept);
+  }
+  spread_sites(edges, source.selection);
 }
 
 std::vector<JunctionLoop> loops_of_sites(const PreservedSource& source, SourceId id,

@@ -41,7 +41,8 @@ std::size_t discard_faces(std::span<PreservedSource> sources, std::span<const Si
                           std::span<const std::pair<SourceId, FaceId>> faces, std::size_t site);
 
 /// Makes the borders of every source clean: opening, crumbs, straightening, pinches (SkinMixer Sec. 6,
-/// junction.md b.0). Each face discarded here goes to the site of its discarded neighbours.
+/// junction.md b.0). Each face discarded here goes to the site of its discarded neighbours. A source
+/// of which nothing would be left keeps its ragged border.
 void clean_borders(PreservedSource& source, const PreserveOptions& options);
 
 /// The closed borders that belong to one of `sites`. Arcs that end on an original open border are counted in
