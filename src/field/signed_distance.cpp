@@ -14,8 +14,9 @@ struct Cell {
   double t = 0;
 };
 
-Cell cell_at(double coordinate, int points) {
-  const double inside = std::clamp(coordinate, 0.0, static_cast<double>(points - 1));
+// Inlined by force: half of the time of a large junction is spent in here.
+[[gnu::always_inline]] inline Cell cell_at(double coordinate, int points) {
+  const double inside = std::min(std::max(coordinate, 0.0), static_cast<double>(points - 1));
   const int first = std::min(static_cast<int>(inside), std::max(points - 2, 0));
   return {first, std::min(first + 1, points - 1), inside - first};
 }
@@ -24,27 +25,44 @@ double lerp(double a, double b, double t) {
   return a + t * (b - a);
 }
 
-}  // namespace
+using Cells = std::array<Cell, 3>;
 
-double DistanceField::at(const Vec3& p) const {
-  SF_EXPECT(lattice.count() > 0 && values.size() == lattice.count());
+Cells cells_at(const Lattice& lattice, const Vec3& p) {
   const Vec3 index = (p - lattice.origin) / lattice.voxel;
-  const Cell x = cell_at(index.x(), lattice.size[0]);
-  const Cell y = cell_at(index.y(), lattice.size[1]);
-  const Cell z = cell_at(index.z(), lattice.size[2]);
+  return {cell_at(index.x(), lattice.size[0]), cell_at(index.y(), lattice.size[1]),
+          cell_at(index.z(), lattice.size[2])};
+}
+
+double interpolate(const DistanceField& field, const Cells& cells) {
+  const auto& [x, y, z] = cells;
   const auto row = [&](int j, int k) -> double {
-    return lerp(values[lattice.index(x.first, j, k)], values[lattice.index(x.second, j, k)], x.t);
+    const float* values = field.values.data() + field.lattice.index(0, j, k);
+    return lerp(values[x.first], values[x.second], x.t);
   };
   const auto layer = [&](int k) { return lerp(row(y.first, k), row(y.second, k), y.t); };
   return lerp(layer(z.first), layer(z.second), z.t);
 }
 
+}  // namespace
+
+double DistanceField::at(const Vec3& p) const {
+  SF_EXPECT(lattice.count() > 0 && values.size() == lattice.count());
+  return interpolate(*this, cells_at(lattice, p));
+}
+
 Vec3 DistanceField::gradient(const Vec3& p) const {
+  SF_EXPECT(lattice.count() > 0 && values.size() == lattice.count());
   const double half = lattice.voxel / 2;
+  const Cells centre = cells_at(lattice, p);
+  const Cells above = cells_at(lattice, p + Vec3::Constant(half));
+  const Cells below = cells_at(lattice, p - Vec3::Constant(half));
   Vec3 result;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 step = half * Vec3::Unit(axis);
-    result[axis] = (at(p + step) - at(p - step)) / lattice.voxel;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Cells high = centre, low = centre;
+    high[axis] = above[axis];
+    low[axis] = below[axis];
+    result[static_cast<Eigen::Index>(axis)] =
+        (interpolate(*this, high) - interpolate(*this, low)) / lattice.voxel;
   }
   return result;
 }
