@@ -12,17 +12,26 @@ constexpr double kLongEdge = 0.05;     // design: cost = area + 0.05 diagonal^2
 constexpr double kInward = 4.0;        // ours: a triangle facing inwards costs up to nine times its area
 constexpr std::size_t kMaxFill = 256;  // ours: 256^3 / 6 steps are 30 ms
 
-double triangle_cost(const Vec3& p, const Vec3& q, const Vec3& r, const OutwardDirection& outward) {
+// `outward`: away from the solid, of any length; zero where that is not known.
+double triangle_cost(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& outward) {
   const Vec3 cross = (q - p).cross(r - p);
   const double area = 0.5 * cross.norm();
   const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
-  double facing = 1;
-  if (outward && area > 0) {
-    const Vec3 direction = outward((p + q + r) / 3);
-    if (direction.squaredNorm() > 0) facing = cross.normalized().dot(direction.normalized());
-  }
+  const double length = outward.norm();
+  const double facing = area > 0 && length > 0 ? cross.dot(outward) / (2 * area * length) : 1;
   return area * (1 + kInward * (1 - facing)) + kLongEdge * longest;
 }
+
+// A loop and the direction away from the solid at each of its vertices.
+struct Ring {
+  std::span<const Vec3> positions;
+  std::vector<Vec3> outward;
+
+  Ring(std::span<const Vec3> loop, const OutwardDirection& direction) : positions(loop) {
+    for (const Vec3& p : loop) outward.push_back(direction ? direction(p).normalized() : Vec3(Vec3::Zero()));
+  }
+  std::size_t size() const { return positions.size(); }
+};
 
 struct Zip {
   double cost = std::numeric_limits<double>::infinity();
@@ -30,8 +39,7 @@ struct Zip {
 };
 
 // Best zip whose first rung joins a[0] and c[start]; rungs (i, j) join a[i % n] and c[(start + j) % m].
-Zip zip_from(std::span<const Vec3> a, std::span<const Vec3> c, std::size_t start,
-             const OutwardDirection& outward) {
+Zip zip_from(const Ring& a, const Ring& c, std::size_t start) {
   const std::size_t n = a.size(), m = c.size(), width = m + 1;
   std::vector<double> cost((n + 1) * width, std::numeric_limits<double>::infinity());
   std::vector<char> along_a(cost.size(), 0);
@@ -39,14 +47,16 @@ Zip zip_from(std::span<const Vec3> a, std::span<const Vec3> c, std::size_t start
   for (std::size_t i = 0; i <= n; ++i) {
     for (std::size_t j = 0; j <= m; ++j) {
       const double here = cost[i * width + j];
-      const Vec3 &ai = a[i % n], &cj = c[(start + j) % m];
+      const std::size_t p = i % n, q = (start + j) % m, after_p = (i + 1) % n, after_q = (start + j + 1) % m;
       if (i < n) {
-        const double next = here + triangle_cost(ai, a[(i + 1) % n], cj, outward);
+        const double next = here + triangle_cost(a.positions[p], a.positions[after_p], c.positions[q],
+                                                 a.outward[p] + a.outward[after_p] + c.outward[q]);
         if (next < cost[(i + 1) * width + j])
           cost[(i + 1) * width + j] = next, along_a[(i + 1) * width + j] = 1;
       }
       if (j < m) {
-        const double next = here + triangle_cost(ai, c[(start + j + 1) % m], cj, outward);
+        const double next = here + triangle_cost(a.positions[p], c.positions[after_q], c.positions[q],
+                                                 a.outward[p] + c.outward[after_q] + c.outward[q]);
         if (next < cost[i * width + j + 1]) cost[i * width + j + 1] = next, along_a[i * width + j + 1] = 0;
       }
     }
@@ -83,9 +93,10 @@ std::vector<std::size_t> candidate_starts(const Vec3& a0, std::span<const Vec3> 
 std::vector<Triangle> zip_rings(std::span<const Vec3> a, std::span<const Vec3> c,
                                 const OutwardDirection& outward) {
   SF_EXPECT(a.size() >= 3 && c.size() >= 3);
+  const Ring first(a, outward), second(c, outward);
   Zip best;
   for (const std::size_t start : candidate_starts(a[0], c)) {
-    Zip zip = zip_from(a, c, start, outward);
+    Zip zip = zip_from(first, second, start);
     if (zip.cost < best.cost) best = std::move(zip);
   }
   return best.triangles;
@@ -109,7 +120,7 @@ std::vector<Triangle> fill_loop(std::span<const Vec3> loop) {
       best = std::numeric_limits<double>::infinity();
       for (std::size_t j = i + 1; j < k; ++j) {
         const double total =
-            cost[i * n + j] + cost[j * n + k] + triangle_cost(loop[i], loop[j], loop[k], nullptr);
+            cost[i * n + j] + cost[j * n + k] + triangle_cost(loop[i], loop[j], loop[k], Vec3::Zero());
         if (total < best) best = total, apex[i * n + k] = j;
       }
     }
