@@ -34,6 +34,7 @@ class Parser {
     app_.set_help_all_flag("--help-all", "Print the help of every command");
     app_.set_version_flag("--version", std::string("skinforge ") + kVersion);
     app_.require_subcommand(0, 1);
+    add_talk_flags(&app_);
     app_.footer(
         "Exit status: 0 ok, 1 a stage failed, 2 usage or recipe error, 3 input missing or corrupt,\n"
         "4 validation failed, 6 some recipes failed (--keep-going), 70 internal error,\n"
@@ -144,17 +145,23 @@ class Parser {
   CLI::App* add_verb(CLI::App* parent, const std::string& name, const std::string& what, Verb verb) {
     CLI::App* app = parent->add_subcommand(name, what);
     app->allow_extras();
+    add_talk_flags(app);
+    verbs_[app] = verb;
+    return app;
+  }
+
+  // Before the verb or behind it.
+  void add_talk_flags(CLI::App* app) {
     app->add_flag("--json", line_.json, "Print the result as JSON on stdout");
     app->add_flag("-q,--quiet", quiet_, "Say warnings and errors only");
     app->add_flag("-v,--verbose", verbose_, "Say more");
-    verbs_[app] = verb;
-    return app;
   }
 
   CLI::App* add_group(const std::string& name, const std::string& what) {
     CLI::App* app = app_.add_subcommand(name, what);
     app->allow_extras();
     app->require_subcommand(0, 1);
+    add_talk_flags(app);
     return app;
   }
 

@@ -107,6 +107,30 @@ TEST_F(Cli, UsageErrorsOfferTheNearestName) {
   }
 }
 
+// Every verb takes --json, -q and -v, before its name or behind it.
+TEST_F(Cli, TalkFlagsGoWithEveryVerb) {
+  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{{"version"},
+                                                                                    {"schema"},
+                                                                                    {"schema", "report"},
+                                                                                    {"help"},
+                                                                                    {"cache", "stats"},
+                                                                                    {"cache", "verify"},
+                                                                                    {"cache", "clear"},
+                                                                                    {"cache", "path"}}) {
+    for (const char* flag : {"-q", "-v", "--quiet", "--verbose"}) {
+      std::vector<std::string> before = {flag, "--json"}, behind = verb;
+      before.insert(before.end(), verb.begin(), verb.end());
+      behind.insert(behind.end(), {flag, "--json"});
+      for (const auto& arguments : {before, behind}) {
+        const ProgramResult result = call(arguments);
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_FALSE(json::parse(result.out, nullptr, false).is_discarded()) << verb[0] << result.out;
+      }
+    }
+  }
+  EXPECT_THAT(call({"-q", "cache", "verify"}).err, IsEmpty());
+}
+
 TEST_F(Cli, RecipeErrorsSayWhereAndAreStatus2) {
   write("x.json", "{\"recipe_version\": 1,\n  \"name\": \"x\", \"inptus\": {}}");
   for (const char* verb : {"build", "check", "plan"}) {
