@@ -226,19 +226,23 @@ class RecipeReader {
     operation.from = input_name(object.at("from"));
     operation.joint = object.at("joint").text();
     if (const auto place = object.find("place")) operation.place = read_placement(*place);
-    if (const auto blend = object.find("blend"))
-      operation.blend = blend->choice<Blend>({{"auto", Blend::Auto},
-                                              {"blend", Blend::Blend},
-                                              {"union", Blend::Union},
-                                              {"paper", Blend::Paper},
-                                              {"smin", Blend::Smin},
-                                              {"gradient", Blend::Gradient}});
+    if (const auto blend = object.find("blend")) operation.blend = read_blend(*blend, operation.kind);
     const bool changes_nothing = operation.kind == OperationKind::Replace && operation.from == recipe_.base &&
                                  operation.at == std::vector{operation.joint} &&
                                  operation.place == Placement();
     if (changes_nothing)
       object.reader().fail("this replaces joint \"" + printable(operation.joint) +
                            "\" of the base by itself");
+  }
+
+  static Blend read_blend(const ValueReader& reader, OperationKind kind) {
+    const Blend blend =
+        reader.choice<Blend>({{"auto", Blend::Auto}, {"blend", Blend::Blend}, {"union", Blend::Union}});
+    if (kind == OperationKind::Replace && blend == Blend::Union)
+      reader.fail("a replacement blends; \"op\": \"attach\" unites");
+    if (kind == OperationKind::Attach && blend == Blend::Blend)
+      reader.fail("an attached part is united; \"op\": \"replace\" blends");
+    return blend;
   }
 
   static Placement read_placement(const ValueReader& reader) {

@@ -48,7 +48,7 @@ struct RecipeInput {
 
 enum class OperationKind : std::uint8_t { Replace, Attach, Remove, Detach };
 enum class Align : std::uint8_t { Joint, Loop, None };
-enum class Blend : std::uint8_t { Auto, Blend, Union, Paper, Smin, Gradient };
+enum class Blend : std::uint8_t { Auto, Blend, Union };
 
 /// Where the grafted part goes (SkinMixer Sec. 4.1): p -> scale R p about `joint`, then moved by `align`,
 /// then by `offset`; with Align::None p -> scale R p + offset about the input's origin.

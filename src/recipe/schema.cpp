@@ -135,11 +135,10 @@ Json operation() {
           {"joint", described("Joint of that input: the top of the part.", text(), {"Spine"})},
           {"place", described("Where the part goes.", placement(),
                               {{{"align", "joint"}, {"rotate_deg", {0, -90, 0}}}})},
-          {"blend", described("How the surfaces meet; auto: blend for replace, union for attach.",
-                              {{"type", "string"},
-                               {"enum", {"auto", "blend", "union", "paper", "smin", "gradient"}},
-                               {"default", "auto"}},
-                              {"smin"})},
+          {"blend", described("How the surfaces meet (SkinMixer Eq. 1): blend for replace, union for attach; "
+                              "auto is the one that fits.",
+                              {{"type", "string"}, {"enum", {"auto", "blend", "union"}}, {"default", "auto"}},
+                              {"auto"})},
       },
       {"op", "at"});
   const Json one_joint = {{"anyOf", {text(), {{"type", "array"}, {"maxItems", 1}}}}};
@@ -148,7 +147,12 @@ Json operation() {
                              {{"required", {"joint"}}},
                              {{"required", {"place"}}},
                              {{"required", {"blend"}}}}}};
+  const auto blend_is = [](const char* kind) {
+    return Json{{"properties", {{"blend", {{"enum", {"auto", kind}}}}}}};
+  };
   schema["allOf"] = {if_operation({"replace", "attach"}, {{"required", {"from", "joint"}}}),
+                     if_operation({"replace"}, blend_is("blend")),
+                     if_operation({"attach"}, blend_is("union")),
                      if_operation({"attach", "detach"}, {{"properties", {{"at", one_joint}}}}),
                      if_operation({"remove", "detach"}, {{"not", donor_keys}})};
   return schema;

@@ -9,7 +9,6 @@ class Field final : public Stage {
  public:
   Field(ArtifactNames names, const Recipe& recipe, std::size_t site) : names_(std::move(names)), site_(site) {
     options_.voxel_factor = recipe.surface.voxel_factor;
-    wanted_ = recipe.operations[site].blend;
   }
 
   StageInfo info() const override {
@@ -22,7 +21,6 @@ class Field final : public Stage {
   void add_to_key(Hasher& key) const override {
     key.add_value("site", site_);
     key.add_value("options", options_);
-    key.add_value("blend", wanted_);
   }
 
   void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
@@ -42,7 +40,6 @@ class Field final : public Stage {
   ArtifactNames names_;
   std::size_t site_;
   FieldOptions options_;
-  Blend wanted_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -22,10 +23,12 @@ double mean_border_edge(const std::vector<JunctionLoop>& loops) {
 
 // Free vertices onto delta_R = 0 by Newton steps, each at most half a voxel; far off ones stay.
 Projection onto_field(const DistanceField& field) {
-  return [&field](const Vec3& start) {
+  const double near = 1e-3 * field.lattice.voxel;  // ours: far below what one can see
+  return [&field, near](const Vec3& start) {
     Vec3 p = start;
     for (int step = 0; step < 3; ++step) {
       const double value = field.at(p);
+      if (std::abs(value) < near) break;
       const Vec3 gradient = field.gradient(p);
       const double squared = gradient.squaredNorm();
       if (!(squared > 1e-4)) break;  // the gradient of a distance has length 1; near 0 lies a medial sheet

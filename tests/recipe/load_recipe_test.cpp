@@ -49,7 +49,7 @@ constexpr const char* kCentaur = R"({ // the recipe of the README, with every ke
                        "pose": { "Head": { "rotate_deg": [10,0,0] }, "a/b~c": { "translate": [0,1,0] } } },
               "horse": "horse.glb" },
   "base": "horse",
-  "ops": [ { "op": "replace", "at": "Neck1", "from": "man", "joint": "Spine", "blend": "smin",
+  "ops": [ { "op": "replace", "at": "Neck1", "from": "man", "joint": "Spine", "blend": "blend",
              "place": { "align": "loop", "scale": "loop", "rotate_deg": [0,-90,0], "offset": [0,0,0.5] } },
            { "op": "attach", "at": "Torso", "from": "man", "joint": "Arm", "place": { "scale": 1.5, "align": "none" } },
            { "op": "remove", "at": ["Tail1", "Tail2"] },
@@ -80,7 +80,7 @@ TEST(LoadRecipe, ReadsEveryKey) {
   EXPECT_THAT(replace.at, ElementsAre("Neck1"));
   EXPECT_EQ(replace.from, "man");
   EXPECT_EQ(replace.joint, "Spine");
-  EXPECT_EQ(replace.blend, Blend::Smin);
+  EXPECT_EQ(replace.blend, Blend::Blend);
   EXPECT_EQ(replace.place.align, Align::Loop);
   EXPECT_TRUE(replace.place.scale_by_loop);
   EXPECT_EQ(replace.place.scale, 1);
@@ -168,6 +168,7 @@ TEST(LoadRecipe, NamesPlaceWantedAndFound) {
   EXPECT_THAT(op(part + R"("place": {"offset": [0, 0, 1e300]})"),
               HasSubstr("expected a number from -1000000000 to 1000000000"));
   EXPECT_THAT(op(part + R"("blend": true)"), HasSubstr("expected one of \"auto\", \"blend\""));
+  EXPECT_THAT(op(part + R"("blend": "union")"), HasSubstr("\"op\": \"attach\" unites"));
   EXPECT_THAT(op(R"("replace", "at": "j", "from": "a", "joint": "j")"), HasSubstr("of the base by itself"));
   EXPECT_EQ(op(R"("replace", "at": "j", "from": "a", "joint": "j", "place": {"scale": 2})"), "no error");
 }

@@ -125,7 +125,7 @@ TEST(RecipeSchema, AgreesWithTheParser) {
       {"remove", operation(R"("op": "remove", "at": ["j", "k"])"), true},
       {"placement", operation(kPart + R"("place": {"align": "none", "scale": 2, "rotate_deg": [1, 2, 3]})"),
        true},
-      {"scale by loop", operation(kPart + R"("place": {"scale": "loop"}, "blend": "gradient")"), true},
+      {"scale by loop", operation(kPart + R"("place": {"scale": "loop"}, "blend": "blend")"), true},
       {"all options",
        member(R"("surface": {"voxel_factor": 1, "presence_smoothing": 0, "keep_or_drop": {"mean": 0}},
                  "animation": {"clips": [], "complete": false, "rate_hz": 60}, "output": {"glb": "a/b.glb", "influences": 8})"),
@@ -169,6 +169,7 @@ TEST(RecipeSchema, AgreesWithTheParser) {
       {"two numbers", operation(kPart + R"("place": {"offset": [0, 0]})")},
       {"text in a vector", operation(kPart + R"("place": {"offset": [0, 0, "x"]})")},
       {"blend", operation(kPart + R"("blend": "soft")")},
+      {"replace by union", operation(kPart + R"("blend": "union")")},
       {"voxel factor", member(R"("surface": {"voxel_factor": 0})")},
       {"half a pass", member(R"("surface": {"presence_smoothing": 1.5})")},
       {"clips word", member(R"("animation": {"clips": "none"})")},
@@ -236,7 +237,7 @@ TEST(RecipeDigest, KnowsWhatIsAskedFor) {
   elsewhere.replace(elsewhere.find("a.glb"), 5, "../other/a.glb");
   EXPECT_EQ(digest(plain), digest(elsewhere));
   for (const std::string& other :
-       {operation(kPart + R"("place": {"scale": 3})"), operation(kPart + R"("blend": "union")"),
+       {operation(kPart + R"("place": {"scale": 3})"), operation(kPart + R"("blend": "blend")"),
         operation(R"("op": "remove", "at": "j")")})
     EXPECT_NE(digest(plain), digest(other)) << other;
 }
