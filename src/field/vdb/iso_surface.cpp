@@ -6,6 +6,10 @@
 namespace skinforge {
 namespace {
 
+// Ours: the second diagonal must be shorter by a thousandth, far above the rounding of points, so that no
+// last bit chooses between the equal diagonals of a symmetric surface.
+constexpr double kClearlyShorter = 0.999;
+
 bool changes_sign(float low, float high, float) {
   return low < 0 && high >= 0;
 }
@@ -22,7 +26,7 @@ class SurfaceBuilder {
     const auto length2 = [&](int a, int b) {
       return (surface_.positions[q[a]] - surface_.positions[q[b]]).squaredNorm();
     };
-    if (length2(0, 2) <= length2(1, 3)) {
+    if (length2(1, 3) >= kClearlyShorter * length2(0, 2)) {
       surface_.triangles.push_back({q[0], q[1], q[2]});
       surface_.triangles.push_back({q[0], q[2], q[3]});
     } else {
