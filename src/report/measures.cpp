@@ -1,6 +1,9 @@
 #include "report/measures.h"
 
 #include <algorithm>
+#include <numeric>
+#include <span>
+#include <vector>
 
 #include "model/character.h"
 
@@ -55,11 +58,28 @@ MeshReport measure_mesh(const PolygonMesh& mesh, std::int64_t kept_faces) {
   return report;
 }
 
-WeightsReport measure_weights(const SkinWeights& weights, const Skeleton& skeleton) {
+namespace {
+
+void add_cut(std::span<const Influence> row, std::size_t limit, WeightsReport& report) {
+  std::vector<double> weights;
+  for (const Influence& influence : row) weights.push_back(influence.weight);
+  std::sort(weights.begin(), weights.end());  // the least go
+  const double gone =
+      std::accumulate(weights.begin(), weights.end() - static_cast<std::ptrdiff_t>(limit), 0.0);
+  ++report.cut_vertices;
+  report.cut_weight_max = std::max(report.cut_weight_max, gone);
+}
+
+}  // namespace
+
+WeightsReport measure_weights(const SkinWeights& weights, const Skeleton& skeleton, std::size_t limit) {
   WeightsReport report;
   std::vector<bool> is_used(skeleton.size());
   for (std::size_t v = 0; v < weights.vertex_count(); ++v) {
-    const auto row = weights.of(VertexId(v));
+    const auto full = weights.of(VertexId(v));
+    if (full.size() > limit) add_cut(full, limit, report);
+    const auto row = full.size() > limit ? normalised_row({full.begin(), full.end()}, limit)
+                                         : std::vector(full.begin(), full.end());
     double sum = 0;
     for (const Influence& influence : row) {
       sum += influence.weight;

@@ -13,8 +13,9 @@ InputReport measure_input(const Character& character);
 /// inherited edges are the caller's.
 MeshReport measure_mesh(const PolygonMesh& mesh, std::int64_t kept_faces);
 
-/// Sums, influences and idle joints of a skin whose rows name joints of `skeleton`. No vertices: sums of 0.
-WeightsReport measure_weights(const SkinWeights& weights, const Skeleton& skeleton);
+/// Sums, influences and idle joints of a skin whose rows name joints of `skeleton`, when at most `limit`
+/// influences of a row are written, and what that cuts. No vertices: sums of 0.
+WeightsReport measure_weights(const SkinWeights& weights, const Skeleton& skeleton, std::size_t limit);
 
 /// Number of keys over all tracks of a clip.
 std::int64_t count_keys(const Clip& clip);

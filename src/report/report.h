@@ -127,6 +127,8 @@ struct MeshReport {
 
 struct WeightsReport {
   std::int64_t max_influences = 0;
+  std::int64_t cut_vertices = 0;
+  double cut_weight_max = 0;
   double row_sum_min = 0;
   double row_sum_max = 0;
   std::int64_t unweighted_vertices = 0;

@@ -178,6 +178,10 @@ void describe(const MeshReport& m, F& f) {
 template <class F>
 void describe(const WeightsReport& w, F& f) {
   f("max_influences", w.max_influences, "count", "Most joints that move one vertex");
+  f("cut_vertices", w.cut_vertices, "count",
+    "Vertices that had more joints than are written and lost the lightest");
+  f("cut_weight_max", w.cut_weight_max, "ratio",
+    "Most weight that one of them lost; the rest was scaled up to 1");
   f("row_sum_min", w.row_sum_min, "ratio", "Least sum of a vertex's weights");
   f("row_sum_max", w.row_sum_max, "ratio", "Greatest sum of a vertex's weights");
   f("unweighted_vertices", w.unweighted_vertices, "count", "Vertices that no joint moves");

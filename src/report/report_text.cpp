@@ -77,6 +77,9 @@ std::string mesh_line(const MeshReport& m) {
 std::string weights_line(const WeightsReport& w) {
   std::string line =
       fmt::format("at most {}", counted(w.max_influences, "joint moves", "joints move")) + " a vertex";
+  if (w.cut_vertices > 0)
+    line += fmt::format("; {} had more and lost {} at most", counted(w.cut_vertices, "vertex", "vertices"),
+                        percent(w.cut_weight_max));
   if (w.unweighted_vertices > 0)
     line += "; ! " + counted(w.unweighted_vertices, "vertex has", "vertices have") + " no weight";
   if (!w.joints_without_weight.empty())

@@ -68,6 +68,7 @@ class MakeReport final : public Stage {
         recipe_digest_(recipe_digest(recipe).hex()),
         glb_(recipe.output.glb),
         obj_(recipe.output.obj),
+        influences_(static_cast<std::size_t>(recipe.output.influences)),
         clips_(clips.begin(), clips.end()),
         site_count_(recipe.operations.size()),
         issues_(std::move(issues)) {
@@ -109,7 +110,7 @@ class MakeReport final : public Stage {
     const auto& color = in.get<std::vector<ColorSteps>>(names_.color_steps());
     for (std::size_t k = 0; k < site_count_; ++k)
       report.junctions.push_back(report_junction(surface, k, in.get<SiteField>(names_.field(k)), color[k]));
-    add_mesh(surface, result, report);
+    add_mesh(surface, result, influences_, report);
     set_steps(in.get<WeightRecord>(names_.weight_record()), report.weights);
     for (const ClipRequest& clip : clips_)
       report.clips.push_back(report_clip(in.get<CompletedClip>(names_.clip(clip.name)), inputs_[clip.input]));
@@ -199,7 +200,8 @@ class MakeReport final : public Stage {
       }
   }
 
-  static void add_mesh(const SurfaceResult& surface, const Character& result, Report& report) {
+  static void add_mesh(const SurfaceResult& surface, const Character& result, std::size_t influences,
+                       Report& report) {
     std::int64_t kept = 0;
     for (const ResultFace& face : surface.joined.faces) kept += face.source.is_valid();
     report.mesh = measure_mesh(result.mesh, kept);
@@ -207,7 +209,7 @@ class MakeReport final : public Stage {
     report.mesh.open_edges_inherited = wide(inherited.open);
     report.mesh.non_manifold_edges_inherited = wide(inherited.non_manifold);
     report.mesh.components = connected_components(result.mesh).count;
-    report.weights = measure_weights(result.weights, result.skeleton);
+    report.weights = measure_weights(result.weights, result.skeleton, influences);
   }
 
   static void add_output(const StageInput& in, const std::string& artifact, const std::string& name,
@@ -219,6 +221,7 @@ class MakeReport final : public Stage {
   ArtifactNames names_;
   std::vector<std::string> inputs_, files_;
   std::string name_, recipe_digest_, glb_, obj_;
+  std::size_t influences_;
   std::vector<ClipRequest> clips_;
   std::size_t site_count_;
   IssueArtifacts issues_;

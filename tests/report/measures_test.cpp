@@ -46,12 +46,25 @@ TEST(Measures, WeightsByHand) {
   weights.push_row(two);
   weights.push_row(one);
   weights.push_row({});
-  const WeightsReport report = measure_weights(weights, skeleton);
+  const WeightsReport report = measure_weights(weights, skeleton, 4);
   EXPECT_EQ(report.max_influences, 2);
   EXPECT_EQ(report.row_sum_min, 0);
   EXPECT_EQ(report.row_sum_max, 1);
   EXPECT_EQ(report.unweighted_vertices, 1);
   EXPECT_THAT(report.joints_without_weight, ElementsAre("Helper"));
+}
+
+TEST(Measures, WeightsThatAreCutByHand) {
+  Skeleton skeleton;
+  skeleton.joints.resize(3);
+  SkinWeights weights;
+  const std::vector<Influence> three{{JointId(0), 0.125}, {JointId(1), 0.625}, {JointId(2), 0.25}};
+  weights.push_row(three);
+  const WeightsReport report = measure_weights(weights, skeleton, 2);
+  EXPECT_EQ(report.max_influences, 2);
+  EXPECT_EQ(report.cut_vertices, 1);
+  EXPECT_EQ(report.cut_weight_max, 0.125);
+  EXPECT_NEAR(report.row_sum_max, 1, 1e-15);
 }
 
 TEST(Measures, KeysOfAllTracks) {

@@ -60,7 +60,7 @@ inline Report sample_report() {
   j.border_color_step = {42, 0.5, 2, 3.25};
   r.junctions.push_back(j);
   r.mesh = {1500, 1490, 1400, 90, 1430, 1430.0 / 1490, 1, 12, 0, {1.7, 2.9, 2.4}};
-  r.weights = {4, 1.0, 1.0, 0, {"Helper"}, 0.5, 0.75, 0.625, 1};
+  r.weights = {4, 12, 0.125, 1.0, 1.0, 0, {"Helper"}, 0.5, 0.75, 0.625, 1};
   r.clips.push_back({"horse_Walk",
                      "horse",
                      "Walk",
