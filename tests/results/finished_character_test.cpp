@@ -112,8 +112,8 @@ TEST_P(FinishedCharacterTest, EveryClipIsThere) {
   for (const auto& [input, model] : result().inputs()) {
     for (const Clip& clip : model->character().clips) {
       ++expected;
-      const auto is_it = [&](const json& c) {
-        return c.at("input") == input && c.at("source_clip") == clip.name;
+      const auto is_it = [&clip, name = input](const json& c) {
+        return c.at("input") == name && c.at("source_clip") == clip.name;
       };
       const json& clips = report().at("clips");
       const auto found = std::find_if(clips.begin(), clips.end(), is_it);
