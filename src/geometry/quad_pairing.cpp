@@ -15,6 +15,8 @@ constexpr double kSameUv = 1e-5;        // ours: a hundredth of a texel of a 1k 
 constexpr double kSameColor = 2e-3;     // ours: half a step of 8 bits
 constexpr double kLeastFlatness = 0.5;  // ours: normals 60 degrees apart are a modelled edge, not a bent quad
 
+constexpr double kScoreStep = 1.0 / 4096;  // ours: mirrored pairs score alike, whatever their last bits say
+
 // Two triangles that share the edge p-q, by corner: p, q, r of the first, q', p', s of the second.
 struct Pair {
   std::int32_t p, q, r;
@@ -61,7 +63,7 @@ std::optional<double> quad_score(const PolygonMesh& mesh, const Pair& pair) {
   const double flatness = n1.dot(n2) / lengths;
   const double jacobian = scaled_jacobian_of_quad(p, s, q, r);
   if (flatness < kLeastFlatness || jacobian <= 0) return std::nullopt;
-  return 0.5 * jacobian + 0.5 * flatness;
+  return std::round((0.5 * jacobian + 0.5 * flatness) / kScoreStep) * kScoreStep;
 }
 
 std::vector<Candidate> rated_pairs(const PolygonMesh& mesh, const EdgeList& edges,

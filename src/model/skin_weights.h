@@ -43,8 +43,8 @@ struct SkinWeights {
 };
 
 /// The row in normal form: equal joints summed, weights that are not positive dropped, at most `limit`
-/// largest kept (0 = all), scaled to sum 1, sorted by falling weight, ties by joint. Empty when nothing
-/// positive is left.
+/// largest kept (0 = all; of weights within 1/4096 of the sum the lower joint), scaled to sum 1, sorted by
+/// falling weight, ties by joint. Empty when nothing positive is left.
 std::vector<Influence> normalised_row(std::vector<Influence> row, std::size_t limit = 0);
 
 }  // namespace skinforge

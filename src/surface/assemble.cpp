@@ -119,7 +119,7 @@ class Assembler {
       mesh.face_part.emplace_back(0);
     }
     mesh.normals.assign(mesh.corner_count(), Vec3::Zero());
-    return recover_quads(mesh, {.min_score = kJunctionQuadScore});
+    return recover_quads(mesh, {.min_score = kJunctionQuadScore, .follower_bonus = 0});
   }
 
   std::span<const PreservedSource> sources_;

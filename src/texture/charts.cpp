@@ -182,8 +182,8 @@ Vec3 axis_at(std::size_t seed, const std::vector<std::vector<std::size_t>>& neig
   return mean.dot(normals[seed]) >= least_cosine ? mean : normals[seed];
 }
 
-// Faces waiting to join, least turned first, then lowest index.
-using Candidate = std::pair<double, std::size_t>;
+// Faces waiting to join, least turned first (in steps, so that mirrored faces are equal), then lowest index.
+using Candidate = std::pair<std::int64_t, std::size_t>;
 using Candidates = std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>>;
 
 }  // namespace
@@ -206,7 +206,7 @@ std::vector<Chart> grow_charts(const PolygonMesh& mesh, std::span<const FaceId> 
       chart.add(f, faces[f]);
       for (const std::size_t g : neighbours[f]) {
         const double cosine = normals[g].dot(axis);
-        if (!taken[g] && cosine >= least_cosine) open.emplace(1 - cosine, g);
+        if (!taken[g] && cosine >= least_cosine) open.emplace(std::llround((1 - cosine) * 4096), g);
       }
     };
     take(seed);

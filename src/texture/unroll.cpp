@@ -77,15 +77,32 @@ int euler_number(const Ring& ring) {
          static_cast<int>(ring.members.size());
 }
 
+// Lengths of the edges in whole steps, so that mirrored ways round the ring are equally long to the last bit.
+class StepLength {
+ public:
+  explicit StepLength(const Ring& ring) : ring_(ring) {
+    for (const auto& [edge, face] : ring.face_of) sum_ += ring.length(edge.first, edge.second);
+    steps_ = 4096.0 * static_cast<double>(ring.face_of.size());  // ours: 4096 a mean edge
+  }
+  std::int64_t operator()(VertexId a, VertexId b) const {
+    return sum_ > 0 ? std::llround(ring_.length(a, b) / sum_ * steps_) : 1;
+  }
+
+ private:
+  const Ring& ring_;
+  double sum_ = 0, steps_ = 0;
+};
+
 // Shortest path of edges from a vertex of `from` to one of `to` (Dijkstra, ties to the lower vertex). Empty
 // if there is none.
 std::vector<VertexId> shortest_path(const Ring& ring, const std::vector<VertexId>& from,
                                     const std::vector<VertexId>& to) {
   const std::set<VertexId> goals(to.begin(), to.end());
-  std::map<VertexId, double> distance;
+  const StepLength length(ring);
+  std::map<VertexId, std::int64_t> distance;
   std::map<VertexId, VertexId> before;
-  std::priority_queue<std::pair<double, VertexId>, std::vector<std::pair<double, VertexId>>, std::greater<>>
-      open;
+  using Reached = std::pair<std::int64_t, VertexId>;
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
   for (const VertexId v : from) {
     distance[v] = 0;
     open.emplace(0, v);
@@ -101,7 +118,7 @@ std::vector<VertexId> shortest_path(const Ring& ring, const std::vector<VertexId
       return path;
     }
     for (const VertexId n : ring.linked.at(v)) {
-      const double reached = d + ring.length(v, n);
+      const std::int64_t reached = d + length(v, n);
       const auto known = distance.find(n);
       if (known != distance.end() && known->second <= reached) continue;
       distance[n] = reached;
