@@ -1,6 +1,7 @@
 #include "surface/ring_zip.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/expect.h"
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kLongEdge = 0.05;     // design: cost = area + 0.05 diagonal^2
 constexpr double kInward = 4.0;        // ours: a triangle facing inwards costs up to nine times its area
+constexpr double kSameCost = 1e-5;     // ours: the same zip from another start, added up in another order
 constexpr std::size_t kMaxFill = 256;  // ours: 256^3 / 6 steps are 30 ms
 
 // `outward`: away from the solid, of any length; zero where that is not known.
@@ -95,9 +97,11 @@ std::vector<Triangle> zip_rings(std::span<const Vec3> a, std::span<const Vec3> c
   SF_EXPECT(a.size() >= 3 && c.size() >= 3);
   const Ring first(a, outward), second(c, outward);
   Zip best;
+  std::size_t best_start = 0;
   for (const std::size_t start : candidate_starts(a[0], c)) {
     Zip zip = zip_from(first, second, start);
-    if (zip.cost < best.cost) best = std::move(zip);
+    const bool is_equal = std::abs(zip.cost - best.cost) <= kSameCost * zip.cost;
+    if (is_equal ? start < best_start : zip.cost < best.cost) best = std::move(zip), best_start = start;
   }
   return best.triangles;
 }
