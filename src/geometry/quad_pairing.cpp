@@ -101,6 +101,18 @@ class MeshCopy {
     if (!from_.colors.empty()) to_.colors.push_back(from_.colors[c]);
   }
 
+  // The quad p s q r of triangles (p, s, q) and (p, q, r).
+  void add_quad(const Pair& pair) {
+    const auto normal = [&](std::int32_t corner) -> const Vec3& { return from_.normals[corner]; };
+    if (normal(pair.p) != normal(pair.p2) || normal(pair.q) != normal(pair.q2))
+      to_.split.push_back(
+          {FaceId(to_.face_count()), {normal(pair.p2), normal(pair.q2)}, {normal(pair.p), normal(pair.q)}});
+    add_corner(pair.p, pair.p2);
+    add_corner(pair.s);
+    add_corner(pair.q, pair.q2);
+    add_corner(pair.r);
+  }
+
   // A corner where two faces met: equal but, perhaps, for the normal.
   void add_corner(std::int32_t c, std::int32_t other) {
     add_corner(c);
@@ -143,11 +155,7 @@ PolygonMesh recover_quads(const PolygonMesh& mesh, const QuadPairingOptions& opt
     if (chosen[f] == kAlone) {
       for (std::int32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) copy.add_corner(c);
     } else {
-      const Pair& pair = candidates[static_cast<std::size_t>(chosen[f])].pair;
-      copy.add_corner(pair.p, pair.p2);
-      copy.add_corner(pair.s);
-      copy.add_corner(pair.q, pair.q2);
-      copy.add_corner(pair.r);
+      copy.add_quad(candidates[static_cast<std::size_t>(chosen[f])].pair);
     }
     copy.end_face(FaceId(f));
   }

@@ -18,8 +18,8 @@ struct QuadPairingOptions {
 /// have no quads. A quad takes the place of its first triangle and begins at an end of the lost diagonal, so
 /// a fan from its first corner gives both triangles back. Vertices, the order of faces and corner attributes
 /// are kept; where the normals of the two triangles differ at an end of the diagonal, the corner gets the
-/// unit vector of their sum. Polygons that are no triangles stay. Deterministic; O(n log n). Page:
-/// quad_pairing.md.
+/// unit vector of their sum, and `split` keeps them. Polygons that are no triangles stay. Deterministic; O(n
+/// log n). Page: quad_pairing.md.
 PolygonMesh recover_quads(const PolygonMesh& mesh, const QuadPairingOptions& options = {});
 
 }  // namespace skinforge

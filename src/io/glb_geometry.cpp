@@ -1,9 +1,11 @@
 #include "io/glb_geometry.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "io/glb_polygons.h"
@@ -52,11 +54,13 @@ class PrimitiveBuilder {
     for (const VertexId v : vertices) positions.push_back(mesh_.positions[v.index()]);
     const Vec3 normal = area_normal(mesh_, face).normalized();
     const float handedness = has_tangents_ ? uv_handedness(corner_uvs(begin, vertices.size())) : 1.0F;
+    if (const SplitNormals* split = mesh_.split_of(face))
+      return add_halves(begin, positions, *split, handedness);
     std::vector<std::uint32_t> written;
     for (std::size_t i = 0; i < vertices.size(); ++i)
-      written.push_back(vertex_of(vertices[i], attributes(begin + i, normal, handedness)));
-    fans_.add(positions, written);
-    polygons_.push_back(std::move(written));
+      written.push_back(vertex_of(
+          vertices[i], attributes(begin + i, written_normal(mesh_.normals[begin + i], normal), handedness)));
+    add_polygon(positions, std::move(written));
   }
 
   GlbPrimitive finish(MaterialId material) const {
@@ -77,6 +81,32 @@ class PrimitiveBuilder {
   }
 
  private:
+  void add_polygon(std::span<const Vec3> positions, std::vector<std::uint32_t> written) {
+    fans_.add(positions, written);
+    polygons_.push_back(std::move(written));
+  }
+
+  /// A quad as the two triangles that it was in its file, with their own normals.
+  void add_halves(std::size_t begin, std::span<const Vec3> positions, const SplitNormals& split,
+                  float handedness) {
+    const std::array<std::array<std::size_t, 3>, 2> halves{{{0, 1, 2}, {0, 2, 3}}};
+    const std::array<std::array<Vec3, 3>, 2> normals{
+        {{split.first[0], mesh_.normals[begin + 1], split.first[1]},
+         {split.second[0], split.second[1], mesh_.normals[begin + 3]}}};
+    for (std::size_t half = 0; half < 2; ++half) {
+      std::vector<std::uint32_t> written;
+      std::vector<Vec3> corners;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t corner = halves[half][i];
+        corners.push_back(positions[corner]);
+        written.push_back(vertex_of(
+            mesh_.corners[begin + corner],
+            attributes(begin + corner, written_normal(normals[half][i], Vec3::Zero()), handedness)));
+      }
+      add_polygon(corners, std::move(written));
+    }
+  }
+
   Vec2 uv(std::size_t set, std::size_t corner) const {
     return set < mesh_.uvs.size() ? mesh_.uvs[set][corner] : Vec2::Zero();
   }
@@ -89,13 +119,13 @@ class PrimitiveBuilder {
   }
 
   /// Everything of a corner but its position, as it will be written.
-  std::vector<float> attributes(std::size_t corner, const Vec3& face_normal, float handedness) const {
+  std::vector<float> attributes(std::size_t corner, const Vec3& normal, float handedness) const {
     std::vector<float> row;
     row.reserve(width_);
     const auto put = [&](const auto& vector) {
       for (const double x : vector) row.push_back(static_cast<float>(x));
     };
-    put(written_normal(mesh_.normals[corner], face_normal));
+    put(normal);
     for (std::size_t set = 0; set < uv_sets_; ++set) put(uv(set, corner));
     if (has_colors_) put(written_color(corner));
     if (has_tangents_) row.push_back(handedness);

@@ -1,6 +1,7 @@
 #include "model/polygon_mesh.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 
 namespace skinforge {
@@ -62,6 +63,12 @@ std::vector<Vec3> face_positions(const PolygonMesh& mesh, FaceId face) {
 }
 
 }  // namespace
+
+const SplitNormals* PolygonMesh::split_of(FaceId f) const {
+  const auto found = std::lower_bound(split.begin(), split.end(), f,
+                                      [](const SplitNormals& s, FaceId wanted) { return s.face < wanted; });
+  return found != split.end() && found->face == f ? &*found : nullptr;
+}
 
 double PolygonMesh::diagonal() const {
   if (positions.empty()) return 0;

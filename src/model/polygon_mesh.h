@@ -24,6 +24,19 @@ struct MeshPart {
   }
 };
 
+/// A quad that was two triangles of a file, whose normals differed at the ends of its diagonal (flat
+/// shading). Its corners hold their mean; this is what the file had, and what is written.
+struct SplitNormals {
+  FaceId face;
+  std::array<Vec3, 2> first;   ///< of corners 0 and 2 in triangle (0, 1, 2)
+  std::array<Vec3, 2> second;  ///< of corners 0 and 2 in triangle (0, 2, 3)
+
+  template <class Archive>
+  friend void fields(Archive& a, SplitNormals& s) {
+    a(s.face, s.first, s.second);
+  }
+};
+
 /// Polygons over shared positions. A corner is one vertex of one face; what may differ across a seam (normal,
 /// UV, colour) sits on corners, so positions are welded. Faces have 3 or more corners, counter-clockwise from
 /// outside.
@@ -34,6 +47,7 @@ struct PolygonMesh {
   std::vector<MaterialId> face_material;  ///< #F, invalid = no material
   std::vector<PartId> face_part;          ///< #F
   std::vector<Vec3> normals;              ///< #C, unit length or zero
+  std::vector<SplitNormals> split;        ///< of some quads, by rising face
   std::vector<std::vector<Vec2>> uvs;     ///< per UV set #C, glTF convention (v down)
   std::vector<Vec4> colors;               ///< #C or empty; linear RGBA
   std::vector<MeshPart> parts;
@@ -46,12 +60,14 @@ struct PolygonMesh {
     const auto begin = first_corner(f);
     return {corners.data() + begin, static_cast<std::size_t>(face_begin[f.index() + 1]) - begin};
   }
+  /// The split normals of a face; null for most.
+  const SplitNormals* split_of(FaceId f) const;
   /// Diagonal of the bounding box of all positions; 0 for an empty mesh.
   double diagonal() const;
 
   template <class Archive>
   friend void fields(Archive& a, PolygonMesh& m) {
-    a(m.positions, m.corners, m.face_begin, m.face_material, m.face_part, m.normals, m.uvs, m.colors,
+    a(m.positions, m.corners, m.face_begin, m.face_material, m.face_part, m.normals, m.split, m.uvs, m.colors,
       m.parts);
   }
 };

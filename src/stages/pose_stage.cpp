@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "skeleton/pose.h"
 #include "skinning/linear_blend.h"
 #include "stages/inputs.h"
@@ -42,13 +45,24 @@ class PoseInput final : public Stage {
           parent.is_valid() ? Vec3(skeleton[parent].joint_from_model.linear() * move) : move;
     }
     const std::vector<Affine3> palette = skinning_palette(skeleton, local);
-    character.mesh.normals =
-        linear_blend_normals(character.mesh.normals, character.mesh.corners, character.weights, palette);
+    pose_normals(character, palette);
     character.mesh.positions = linear_blend(character.mesh.positions, character.weights, palette);
     const std::vector<Affine3> placed = model_from_joint(skeleton, local);
     for (std::size_t j = 0; j < skeleton.size(); ++j) {
       skeleton.joints[j].bind = local[j];
       skeleton.joints[j].joint_from_model = placed[j].inverse();
+    }
+  }
+
+  static void pose_normals(Character& character, const std::vector<Affine3>& palette) {
+    PolygonMesh& mesh = character.mesh;
+    mesh.normals = linear_blend_normals(mesh.normals, mesh.corners, character.weights, palette);
+    for (SplitNormals& split : mesh.split) {
+      const std::array<VertexId, 2> ends{mesh.face(split.face)[0], mesh.face(split.face)[2]};
+      for (auto* normals : {&split.first, &split.second}) {
+        const auto posed = linear_blend_normals(*normals, ends, character.weights, palette);
+        std::copy(posed.begin(), posed.end(), normals->begin());
+      }
     }
   }
 

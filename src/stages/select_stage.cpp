@@ -16,6 +16,9 @@ PolygonMesh place_mesh(const Character& character, const Similarity& model_from_
   if (!model_from_input.is_identity()) {
     for (Vec3& p : mesh.positions) p = model_from_input * p;
     for (Vec3& n : mesh.normals) n = model_from_input.rotation * n;
+    for (SplitNormals& split : mesh.split)
+      for (auto* normals : {&split.first, &split.second})
+        for (Vec3& n : *normals) n = model_from_input.rotation * n;
   }
   if (joint_shift.empty()) return mesh;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v)

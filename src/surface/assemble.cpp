@@ -34,6 +34,8 @@ class Assembler {
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
       if (!sources_[id.index()].selection.kept[f]) continue;
       const std::size_t first = mesh.first_corner(FaceId(f));
+      if (const SplitNormals* split = mesh.split_of(FaceId(f)))
+        result_.mesh.split.push_back({FaceId(result_.mesh.face_count()), split->first, split->second});
       for (std::size_t c = first; c < first + mesh.face(FaceId(f)).size(); ++c)
         add_corner(mesh, c, preserved_vertex(id, mesh.corners[c]));
       close_face(mesh.face_material[f], PartId(mesh.face_part[f].value + first_part), {id, FaceId(f), -1});
