@@ -48,16 +48,9 @@ class CornerFinder {
   bool has_position(std::size_t v, const Vec3& position) const {
     return !source_.is_base || mesh_.positions[v].cast<float>() == position.cast<float>();
   }
-  // The normal of the corner, or of the quad's corner that two triangles' corners became
-  // (src/geometry/quad_pairing.md, step 5).
   bool has_normal(std::size_t corner, const std::vector<double>& normal) const {
     if (normal.empty() || mesh_.normals[corner].isZero(0)) return true;  // the file had none
-    const Vec3 given(normal.data());
-    if (is_same_normal(mesh_.normals[corner], given)) return true;
-    const auto& others = corners_of_[mesh_.corners[corner].index()];
-    return std::any_of(others.begin(), others.end(), [&](std::size_t other) {
-      return is_same_normal((mesh_.normals[corner] + mesh_.normals[other]).normalized(), given);
-    });
+    return is_same_normal(mesh_.normals[corner], Vec3(normal.data()));
   }
   bool is_same_normal(const Vec3& source, const Vec3& given) const {
     if (source_.is_base) return source.cast<float>() == given.cast<float>();
