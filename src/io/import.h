@@ -30,7 +30,7 @@ std::vector<InputFile> read_input_files(const std::string& path);
 RawScene read_scene(const std::vector<InputFile>& files);
 
 /// Settles every quirk of the scene (`build_character.md` lists them) and returns sound data, `validate`d: metres, Y up, bind pose as
-/// rest geometry, welded, one root, all joints, all clips, quads recovered. Each repair is an issue. `place` (the file name) leads
+/// rest geometry, welded, one root, all joints, all clips. Each repair is an issue. `place` (the file name) leads
 /// each message. Throws Error (BadInput) when nothing sound can be made of it.
 Character build_character(const RawScene& scene, const std::string& place, IssueSink& issues);
 
