@@ -49,6 +49,23 @@ TEST(RecoverQuads, OneSquareByHand) {
   EXPECT_TRUE(quad == from_first || quad == from_third);
 }
 
+// Flat shading: the two triangles keep their own normals beside the mean that the quad's corners get.
+TEST(RecoverQuads, SplitNormalsAreTheTriangles) {
+  PolygonMesh folded = split_grid(1);
+  const Vec3 up(0, 0, 1), tilted = Vec3(0, 0.6, 0.8);
+  for (std::size_t c = 0; c < 6; ++c) folded.normals[c] = c < 3 ? up : tilted;
+  const PolygonMesh result = recover_quads(folded);
+  ASSERT_EQ(quads(result), 1u);
+  const SplitNormals* split = result.split_of(FaceId(0));
+  ASSERT_NE(split, nullptr);
+  const bool first_is_up = vertices(result, 0)[1] == VertexId(1);  // only the first triangle has vertex 1
+  EXPECT_EQ(split->first[0], first_is_up ? up : tilted);
+  EXPECT_EQ(split->first[1], first_is_up ? up : tilted);
+  EXPECT_EQ(split->second[0], first_is_up ? tilted : up);
+  EXPECT_EQ(split->second[1], first_is_up ? tilted : up);
+  EXPECT_TRUE(recover_quads(split_grid(1)).split.empty());
+}
+
 TEST(RecoverQuads, GridComesBackWhole) {
   const PolygonMesh result = recover_quads(split_grid(6));
   EXPECT_EQ(result.face_count(), 36u);
