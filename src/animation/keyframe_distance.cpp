@@ -9,8 +9,8 @@
 namespace skinforge {
 namespace {
 
-constexpr std::size_t kBlock =
-    8;  // candidates handled together; fixed, so that compilers use vector registers
+// Candidates handled together; fixed, so that compilers use vector registers.
+constexpr std::size_t kBlock = 16;
 using Block = Eigen::Array<float, kBlock, 1>;
 constexpr double kMinWeight =
     0.01;  // ours: of the largest; joints below change the distance in the third digit
@@ -116,16 +116,17 @@ std::size_t RotationTable::padded_count() const {
 void RotationTable::add_similarities(std::span<const float> query, std::span<float> sums) const {
   const std::size_t joints = weights_.size();
   SF_EXPECT(query.size() == joints * 4 && sums.size() == padded_count());
+  std::vector<float> weighted(query.size());
+  for (std::size_t v = 0; v < query.size(); ++v) weighted[v] = weights_[v / 4] * query[v];
   const float* values = packed_.data();
   for (std::size_t block = 0; block < sums.size(); block += kBlock) {
     Block sum = Eigen::Map<const Block>(sums.data() + block);
     for (std::size_t j = 0; j < joints; ++j, values += 4 * kBlock) {
-      const float* q = query.data() + 4 * j;
-      const Block dot = q[0] * Eigen::Map<const Block>(values) +
-                        q[1] * Eigen::Map<const Block>(values + kBlock) +
-                        q[2] * Eigen::Map<const Block>(values + 2 * kBlock) +
-                        q[3] * Eigen::Map<const Block>(values + 3 * kBlock);
-      sum += weights_[j] * dot.abs();
+      const float* q = weighted.data() + 4 * j;
+      sum += (q[0] * Eigen::Map<const Block>(values) + q[1] * Eigen::Map<const Block>(values + kBlock) +
+              q[2] * Eigen::Map<const Block>(values + 2 * kBlock) +
+              q[3] * Eigen::Map<const Block>(values + 3 * kBlock))
+                 .abs();
     }
     Eigen::Map<Block>(sums.data() + block) = sum;
   }

@@ -11,11 +11,10 @@ namespace skinforge {
 namespace {
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
-constexpr std::size_t kJumpOrigins = 24;  // ours: cheapest keyframes that a jump may leave from
+constexpr std::size_t kJumpOrigins = 12;  // ours: cheapest keyframes that a jump may leave from
 constexpr int kPlayedBeforeHold = 10;     // ours: frames; a third of a second at 30 Hz
 constexpr std::size_t kFreeFrames = 60;   // ours: a free search of two seconds forgets its ends
-constexpr std::size_t kBlock = 8;
-using Block = Eigen::Array<float, kBlock, 1>;
+constexpr std::size_t kBlock = 8;         // two vector registers
 
 // One frame of the search: for each candidate the cheapest way to it. One slot more, never reached, stands
 // for "none".
@@ -42,7 +41,7 @@ class Search {
   Layer next_layer(const Layer& before, std::size_t frame) const;
   void step_on(const Layer& before, Layer& layer) const;
   void jump_on(const Layer& before, Layer& layer) const;
-  void land(std::size_t origin, float base, Layer& layer) const;
+  void land(std::size_t origin, float base, std::span<float> to_beat, Layer& layer) const;
   std::size_t before(std::size_t candidate, const Layer& layer) const;
 
   const DistanceTable& distances_;
@@ -106,18 +105,42 @@ void Search::step_on(const Layer& before, Layer& layer) const {
   }
 }
 
-void Search::land(std::size_t origin, float base, Layer& layer) const {
+struct Origin {
+  float cost;
+  std::size_t candidate;
+};
+
+// Candidates below a limit from which to jump: the cheapest few, cheapest first, of equals the first.
+std::vector<Origin> cheapest(std::span<const float> costs, float limit) {
+  std::vector<Origin> best;
+  for (std::size_t c = 0; c < costs.size(); ++c) {
+    if (!(costs[c] < limit)) continue;
+    if (best.size() == kJumpOrigins) best.pop_back();
+    const auto place = std::upper_bound(best.begin(), best.end(), costs[c],
+                                        [](float cost, const Origin& origin) { return cost < origin.cost; });
+    best.insert(place, {costs[c], c});
+    if (best.size() == kJumpOrigins) limit = best.back().cost;
+  }
+  return best;
+}
+
+// Whether a block of landings might be cheaper than what there is; most are not.
+bool may_gain(const float* to_beat, const float* landing, float base) {
+  using Half = Eigen::Map<const Eigen::Array4f>;
+  const Eigen::Array4f first = Half(to_beat) - Half(landing), second = Half(to_beat + 4) - Half(landing + 4);
+  return first.max(second).maxCoeff() > base;
+}
+
+// `to_beat`: the cost of each candidate that may be entered, below all costs for the others.
+void Search::land(std::size_t origin, float base, std::span<float> to_beat, Layer& layer) const {
   const auto landing = landing_(static_cast<std::int32_t>(origin));
   for (std::size_t block = 0; block < n_; block += kBlock) {
-    if (block + kBlock <= n_) {  // most blocks have nothing to gain
-      const Block gain = Eigen::Map<const Block>(layer.cost.data() + block) - base -
-                         Eigen::Map<const Block>(landing.data() + block);
-      if (!(gain.maxCoeff() > 0)) continue;
-    }
+    const bool whole = block + kBlock <= n_;
+    if (whole && !may_gain(to_beat.data() + block, landing.data() + block, base)) continue;
     for (std::size_t t = block; t < std::min(n_, block + kBlock); ++t) {
       const float total = base + landing[t];
-      if (!may_enter_[t] || total >= layer.cost[t]) continue;
-      layer.cost[t] = total;
+      if (total >= to_beat[t]) continue;
+      to_beat[t] = layer.cost[t] = total;
       layer.step[t] = PathStep::Jump;
       layer.origin[t] = static_cast<std::int32_t>(origin);
     }
@@ -125,17 +148,12 @@ void Search::land(std::size_t origin, float base, Layer& layer) const {
 }
 
 void Search::jump_on(const Layer& before, Layer& layer) const {
-  float dearest = -kNever;
+  std::vector<float> to_beat(n_, -kNever);
   for (std::size_t c = 0; c < n_; ++c)
-    if (may_enter_[c]) dearest = std::max(dearest, layer.cost[c]);
-  std::vector<std::pair<float, std::size_t>> origins;
-  for (std::size_t c = 0; c < n_; ++c)
-    if (before.cost[c] + costs_.jump < dearest) origins.push_back({before.cost[c], c});
-  const std::size_t count = std::min(kJumpOrigins, origins.size());
-  const auto middle = origins.begin() + static_cast<std::ptrdiff_t>(count);
-  if (middle != origins.end()) std::nth_element(origins.begin(), middle, origins.end());
-  std::sort(origins.begin(), middle);
-  for (std::size_t k = 0; k < count; ++k) land(origins[k].second, origins[k].first + costs_.jump, layer);
+    if (may_enter_[c]) to_beat[c] = layer.cost[c];
+  const float dearest = *std::max_element(to_beat.begin(), to_beat.end());
+  for (const Origin& origin : cheapest(before.cost, dearest - costs_.jump))
+    land(origin.candidate, origin.cost + costs_.jump, to_beat, layer);
 }
 
 Layer Search::next_layer(const Layer& before, std::size_t frame) const {

@@ -16,17 +16,44 @@ constexpr double kWandering = 0.01;       // ours: of the extent; less is a brea
 
 // The joints that turn farthest from the first frame, farthest first.
 std::vector<JointId> turning_joints(const MotionSet& set, std::span<const JointId> joints) {
-  std::vector<std::pair<double, JointId>> turning;  // by |q . q'|, which falls as the angle grows
-  for (const JointId j : joints) {
-    double least = 1;
-    const Quat& first = set.poses.front()[j.index()].rotation;
-    for (const Pose& pose : set.poses) least = std::min(least, std::abs(first.dot(pose[j.index()].rotation)));
-    if (least < kTurningDot) turning.push_back({least, j});
-  }
+  std::vector<double> least(joints.size(), 1);  // |q . q'|, which falls as the angle grows
+  const Pose& first = set.poses.front();
+  for (const Pose& pose : set.poses)
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const std::size_t j = joints[k].index();
+      least[k] = std::min(least[k], std::abs(first[j].rotation.dot(pose[j].rotation)));
+    }
+  std::vector<std::pair<double, JointId>> turning;
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    if (least[k] < kTurningDot) turning.push_back({least[k], joints[k]});
   std::sort(turning.begin(), turning.end());
   turning.resize(std::min(turning.size(), kMostTurning));
   std::vector<JointId> result;
   for (const auto& [dot, j] : turning) result.push_back(j);
+  return result;
+}
+
+struct Wandering {
+  JointId joint;
+  double scale;  // of its translation to shares of the extent
+};
+
+// The joints that move, within their parents, away from where they are in the first frame.
+std::vector<Wandering> wandering_joints(const MotionSet& set, const Skeleton& skeleton,
+                                        std::span<const JointId> joints) {
+  std::vector<double> farthest2(joints.size(), 0);
+  const Pose& first = set.poses.front();
+  for (const Pose& pose : set.poses)
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const std::size_t j = joints[k].index();
+      farthest2[k] = std::max(farthest2[k], (pose[j].translation - first[j].translation).squaredNorm());
+    }
+  const std::vector<double> scales = shift_scales(skeleton);
+  std::vector<Wandering> result;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const double scale = scales[joints[k].index()];
+    if (scale * std::sqrt(farthest2[k]) > kWandering) result.push_back({joints[k], scale});
+  }
   return result;
 }
 
@@ -50,30 +77,27 @@ LandingTable::LandingTable(const MotionSet& set, const Skeleton& skeleton, std::
   turning_ = turning.size();
   rotations_ = rotations_at(set, turning);
   table_ = RotationTable(rotations_, std::vector<float>(turning_, 1.0F / static_cast<float>(turning_)));
-  const std::vector<double> scales = shift_scales(skeleton);
-  for (const JointId j : joints) {
-    std::vector<Vec3> places;
-    double farthest = 0;
-    for (const Pose& pose : set.poses) {
-      places.push_back(scales[j.index()] * pose[j.index()].translation);
-      farthest = std::max(farthest, (places.back() - places.front()).norm());
-    }
-    if (farthest > kWandering) shifts_.push_back(std::move(places));
+  for (const auto& [joint, scale] : wandering_joints(set, skeleton, joints)) {
+    Eigen::ArrayX3f& places = shifts_.emplace_back(frames_, 3);
+    for (std::size_t f = 0; f < frames_; ++f)
+      places.row(static_cast<Eigen::Index>(f)) =
+          (scale * set.poses[f][joint.index()].translation).cast<float>();
   }
 }
 
-const std::vector<float>& LandingTable::pose_distances(std::size_t frame) {
-  std::vector<float>& distances = distances_[frame];
-  if (!distances.empty()) return distances;
-  distances.assign(turning_ > 0 ? table_.padded_count() : frames_, turning_ > 0 ? 0.0F : 1.0F);
-  if (turning_ > 0)
-    table_.add_similarities(std::span(rotations_).subspan(frame * turning_ * 4, turning_ * 4), distances);
-  distances.resize(frames_);
-  for (std::size_t c = 0; c < frames_; ++c) {
-    double shift = 0;
-    for (const auto& places : shifts_) shift = std::max(shift, (places[c] - places[frame]).squaredNorm());
-    distances[c] = std::max(0.0F, 1 - distances[c]) + static_cast<float>(std::sqrt(shift));
-  }
+const Eigen::ArrayXf& LandingTable::pose_distances(std::size_t frame) {
+  Eigen::ArrayXf& distances = distances_[frame];
+  if (distances.size() > 0) return distances;
+  const auto count = static_cast<Eigen::Index>(frames_), here = static_cast<Eigen::Index>(frame);
+  distances = Eigen::ArrayXf::Zero(count);
+  for (const Eigen::ArrayX3f& p : shifts_)
+    distances = distances.max((p.col(0) - p(here, 0)).square() + (p.col(1) - p(here, 1)).square() +
+                              (p.col(2) - p(here, 2)).square());
+  distances = distances.sqrt();
+  if (turning_ == 0) return distances;
+  std::vector<float> similarities(table_.padded_count(), 0.0F);
+  table_.add_similarities(std::span(rotations_).subspan(frame * turning_ * 4, turning_ * 4), similarities);
+  distances += (1 - Eigen::Map<const Eigen::ArrayXf>(similarities.data(), count)).max(0.0F);
   return distances;
 }
 
@@ -81,9 +105,9 @@ std::span<const float> LandingTable::row(std::int32_t from) {
   const auto s = static_cast<std::size_t>(from);
   std::vector<float>& row = rows_[s];
   if (!row.empty()) return row;
-  const std::vector<float>& arrival =
+  const Eigen::ArrayXf& arrival =
       pose_distances(steps_.next[s] < 0 ? s : static_cast<std::size_t>(steps_.next[s]));
-  const std::vector<float>& departure = pose_distances(s);
+  const Eigen::ArrayXf& departure = pose_distances(s);
   row.resize(frames_);
   for (std::size_t t = 0; t < frames_; ++t) {
     const std::int32_t before = steps_.previous[t];

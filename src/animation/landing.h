@@ -22,15 +22,16 @@ class LandingTable {
   std::span<const float> row(std::int32_t from);
 
  private:
-  const std::vector<float>& pose_distances(std::size_t frame);
+  const Eigen::ArrayXf& pose_distances(std::size_t frame);
 
   const FrameSteps& steps_;
   std::size_t frames_;
   std::vector<float> rotations_;  // #frames x #turning joints x 4
   std::size_t turning_ = 0;
   RotationTable table_;
-  std::vector<std::vector<Vec3>> shifts_;  // per wandering joint, per frame: place in shares of the extent
-  std::vector<std::vector<float>> distances_, rows_;
+  std::vector<Eigen::ArrayX3f> shifts_;  // per wandering joint, #frames: place in shares of the extent
+  std::vector<Eigen::ArrayXf> distances_;
+  std::vector<std::vector<float>> rows_;
 };
 
 }  // namespace skinforge
