@@ -31,7 +31,7 @@ void expect_own(const std::string& path) {
 }
 
 const VdbFunctions& load() {
-  void* library = ::dlopen(kVdbModule, RTLD_NOW | RTLD_LOCAL);
+  void* library = ::dlopen(kVdbModule, RTLD_LAZY | RTLD_LOCAL);
   if (!library) fail(std::string("cannot be loaded: ") + ::dlerror());
   expect_own(file_of(library));
   const auto* found = static_cast<const VdbFunctions*>(::dlsym(library, kVdbSymbol));
