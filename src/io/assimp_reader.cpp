@@ -243,15 +243,21 @@ class FbxSide {
   std::string trouble_;
 };
 
+struct Source {
+  std::optional<FbxSide> fbx;
+  std::optional<Reading> reading;
+};
+
 }  // namespace
 
-RawScene read_with_assimp(const std::vector<InputFile>& files) {
-  std::optional<FbxSide> fbx;
+AssimpScene read_with_assimp(const std::vector<InputFile>& files) {
+  const auto owner = std::make_shared<Source>();
+  std::optional<FbxSide>& fbx = owner->fbx;
   RawScene scene;
   const std::string extension = lower_extension(files.front().path);
   if (extension == ".fbx") fbx.emplace(files.front());
   if (extension == ".dae") check_dae(files.front(), scene.issues);
-  const Reading reading(files, false);
+  const Reading& reading = owner->reading.emplace(files, false);
   const aiScene& source = reading.scene();
   scene.skin_ignores_mesh_node = false;
   scene.triangles_only = false;
@@ -265,7 +271,7 @@ RawScene read_with_assimp(const std::vector<InputFile>& files) {
   read_meshes(source, index, geometric, material, scene);
   read_animations(source, index, scene);
   if (fbx) fbx->add_to(scene);
-  return scene;
+  return {std::move(scene), owner};
 }
 
 }  // namespace skinforge

@@ -138,10 +138,10 @@ class Sampler {
       const Transform left = local(times[k], true), right = local(times[k], false);
       if (before > 0 && distance(left, right) > kJump) {
         const double early = times[k] - std::min(kBeforeJump, before / 4);
-        add_key(early, left, slope(early, -before), zero_slope());
-        add_key(times[k], right, zero_slope(), slope(times[k], behind));
+        add_key(early, left, slope(early, local(early, true), -before), zero_slope());
+        add_key(times[k], right, zero_slope(), slope(times[k], right, behind));
       } else {
-        add_key(times[k], right, slope(times[k], -before), slope(times[k], behind));
+        add_key(times[k], right, slope(times[k], left, -before), slope(times[k], right, behind));
       }
     }
     return std::move(tracks_);
@@ -159,13 +159,12 @@ class Sampler {
     return local_at(motion_, transform_, time, from_left);
   }
 
-  /// Derivative towards a piece of signed length `reach`, from its side alone.
-  Slope slope(double time, double reach) const {
+  /// Derivative towards a piece of signed length `reach`, from its side alone; `a`: the transform there.
+  Slope slope(double time, const Transform& a, double reach) const {
     if (reach == 0) return {};
     const bool from_left = reach < 0;
     const double h = reach * kSlopeStep;
-    const Transform a = local(time, from_left), b = local(time + h, from_left),
-                    c = local(time + 2 * h, from_left);
+    const Transform b = local(time + h, from_left), c = local(time + 2 * h, from_left);
     const auto derive = [&](const auto& x, const auto& y, const auto& z) {
       return ((4 * y - z - 3 * x) / (2 * h)).eval();
     };

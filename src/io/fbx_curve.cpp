@@ -60,6 +60,7 @@ FbxCurve::FbxCurve(const FbxNode& node) {
     pieces_.push_back(known ? read_piece(static_cast<std::uint32_t>(flags[group]), &data[4 * group])
                             : Piece{});
   }
+  is_constant_ = find_constant();
 }
 
 FbxCurve::Piece FbxCurve::read_piece(std::uint32_t flags, const float* data) const {
@@ -89,6 +90,7 @@ double FbxCurve::between(std::size_t key, double time) const {
 
 double FbxCurve::at(double time, bool from_left) const {
   if (times_.empty()) return 0;
+  if (is_constant_) return values_.front();
   const auto next = from_left ? std::lower_bound(times_.begin(), times_.end(), time)
                               : std::upper_bound(times_.begin(), times_.end(), time);
   if (next == times_.begin()) return values_.front();
@@ -97,7 +99,7 @@ double FbxCurve::at(double time, bool from_left) const {
   return between(key, time);
 }
 
-bool FbxCurve::is_constant() const {
+bool FbxCurve::find_constant() const {
   for (std::size_t k = 0; k + 1 < times_.size(); ++k)
     if (values_[k] != values_[k + 1] ||
         (pieces_[k].kind == Kind::Cubic && (pieces_[k].right_slope != 0 || pieces_[k].left_slope != 0)))

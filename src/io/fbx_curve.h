@@ -17,7 +17,7 @@ class FbxCurve {
   const std::vector<double>& times() const { return times_; }
   /// Value at a time. At the jump that ends a constant piece: from the right, or as the limit `from_left`.
   double at(double time, bool from_left = false) const;
-  bool is_constant() const;
+  bool is_constant() const { return is_constant_; }
 
  private:
   enum class Kind { Constant, ConstantNext, Linear, Cubic };
@@ -28,10 +28,12 @@ class FbxCurve {
   };
   Piece read_piece(std::uint32_t flags, const float* data) const;
   double between(std::size_t key, double time) const;
+  bool find_constant() const;
 
   std::vector<double> times_;
   std::vector<double> values_;
   std::vector<Piece> pieces_;  ///< one per key; that of the last is not used
+  bool is_constant_ = true;
 };
 
 }  // namespace skinforge

@@ -91,6 +91,7 @@ class BinaryParser {
     node.name = read_text(read<std::uint8_t>());
     if (end == 0) return false;
     if (end <= begin || end > bytes_.size()) fail(fmt::format("the node at byte {} ends outside", begin));
+    node.values.reserve(std::min<std::uint64_t>(count, end - begin));  // a value takes a byte or more
     for (std::uint64_t i = 0; i < count; ++i) node.values.push_back(read_value());
     FbxNode child;
     while (at_ < end && read_node(child, depth + 1)) node.children.push_back(std::move(child));

@@ -35,7 +35,8 @@ Quat euler(const Vec3& degrees_xyz, int order) {
       {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
   Quat turn = Quat::Identity();
   for (const int axis : kOrders[static_cast<std::size_t>(order)])
-    turn = Quat(Eigen::AngleAxisd(radians(degrees_xyz[axis]), Vec3::Unit(axis))) * turn;
+    if (degrees_xyz[axis] != 0)
+      turn = Quat(Eigen::AngleAxisd(radians(degrees_xyz[axis]), Vec3::Unit(axis))) * turn;
   return turn;
 }
 

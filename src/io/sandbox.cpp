@@ -142,41 +142,42 @@ void enter_cell(const SandboxLimits& limits) {
   ::_exit(kOutOfMemory);
 }
 
-Bytes answer_to(const Task& task) {
+struct Job {
+  const Task* task = nullptr;
+  std::shared_ptr<void> source;  // not freed: the process ends after its answer
+  Bytes answer;
+};
+
+void do_job(Job& job) {
   Answer answer;
   try {
-    answer.scene = read_with_assimp(task.files);
-    return to_bytes(answer);
+    AssimpScene read = read_with_assimp(job.task->files);
+    job.source = std::move(read.source);
+    answer.scene = std::move(read.scene);
+    job.answer = to_bytes(answer);
+    return;
   } catch (const std::bad_alloc&) {
     end_without_memory();
   } catch (const std::exception& error) {
     answer.error = error.what();
   }
-  return to_bytes(Answer{answer.error, {}});
+  job.answer = to_bytes(Answer{answer.error, {}});
 }
 
-struct Job {
-  const Task* task = nullptr;
-  Bytes answer;
-};
-
 void* run_job(void* data) {
-  auto* job = static_cast<Job*>(data);
-  job->answer = answer_to(*job->task);
+  do_job(*static_cast<Job*>(data));
   return nullptr;
 }
 
 /// Runs on a stack of its own: that of the process could not grow so far any more.
-Bytes answer_with_stack(const Task& task) {
-  Job job{&task, {}};
+void run_with_stack(Job& job) {
   pthread_attr_t attributes;
   pthread_t thread;
   ::pthread_attr_init(&attributes);
-  ::pthread_attr_setstacksize(&attributes, task.limits.stack);
+  ::pthread_attr_setstacksize(&attributes, job.task->limits.stack);
   if (::pthread_create(&thread, &attributes, run_job, &job) != 0) end_without_memory();
   ::pthread_join(thread, nullptr);
   ::pthread_attr_destroy(&attributes);
-  return std::move(job.answer);
 }
 
 // ---------------------------------------------------------------- the parent
@@ -294,9 +295,10 @@ int import_worker_main(int, char**) {
     if (task.files.empty()) return 1;
     std::set_new_handler(end_without_memory);
     enter_cell(task.limits);
-    const Bytes answer = answer_with_stack(task);
-    write_all(STDOUT_FILENO, answer);
-    return 0;
+    Job job{&task, {}, {}};
+    run_with_stack(job);
+    write_all(STDOUT_FILENO, job.answer);
+    ::_exit(0);
   } catch (const std::exception&) {
     return 1;
   }
