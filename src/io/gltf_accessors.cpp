@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -79,10 +80,22 @@ std::size_t element_size(const GltfAccessor& a) {
   return component_offset(a, a.components - 1) + component_size(a.component_type);
 }
 
-void read_element(const GltfAccessor& a, const std::byte* element, double* out) {
-  for (std::size_t c = 0; c < a.components; ++c)
-    out[c] = component(element + component_offset(a, c), a.component_type, a.normalized);
-}
+/// Reads elements of one accessor.
+class ElementReader {
+ public:
+  explicit ElementReader(const GltfAccessor& accessor) : accessor_(accessor) {
+    for (std::size_t c = 0; c < accessor.components; ++c) offsets_[c] = component_offset(accessor, c);
+  }
+
+  void read(const std::byte* element, double* out) const {
+    for (std::size_t c = 0; c < accessor_.components; ++c)
+      out[c] = component(element + offsets_[c], accessor_.component_type, accessor_.normalized);
+  }
+
+ private:
+  const GltfAccessor& accessor_;
+  std::array<std::size_t, 16> offsets_{};  // MAT4 has the most components
+};
 
 }  // namespace
 
@@ -197,13 +210,14 @@ GltfValues GltfAccessors::values(const GltfAccessor& accessor) {
   GltfValues values{accessor.count, accessor.components, {}};
   values.numbers.resize(accessor.count * accessor.components);
   double* out = values.numbers.data();
+  const ElementReader reader(accessor);
   if (accessor.data != nullptr)
     for (std::size_t i = 0; i < accessor.count; ++i)
-      read_element(accessor, accessor.data + i * accessor.stride, out + i * accessor.components);
+      reader.read(accessor.data + i * accessor.stride, out + i * accessor.components);
   if (accessor.sparse)
     for (std::size_t i = 0; i < accessor.sparse->indices.size(); ++i)
-      read_element(accessor, accessor.sparse->data + i * element_size(accessor),
-                   out + accessor.sparse->indices[i] * accessor.components);
+      reader.read(accessor.sparse->data + i * element_size(accessor),
+                  out + accessor.sparse->indices[i] * accessor.components);
   return values;
 }
 
