@@ -11,18 +11,25 @@ void Artifact::expect_type(std::type_index type) const {
   SF_EXPECT(type_ && *type_ == type);  // one artifact is read as one type only
 }
 
-std::optional<Bytes> Artifact::bytes() const {
+std::shared_ptr<const Bytes> Artifact::load() const {
+  std::optional<Bytes> bytes = loader_ ? loader_() : std::nullopt;
+  return bytes ? std::make_shared<const Bytes>(*std::move(bytes)) : nullptr;
+}
+
+std::shared_ptr<const Bytes> Artifact::bytes() const {
   const std::lock_guard lock(mutex_);
   if (bytes_) return bytes_;
-  if (type_ && *type_ == typeid(Bytes)) return *static_cast<const Bytes*>(value_.get());
-  return loader_ ? loader_() : std::nullopt;
+  if (value_ && *type_ == typeid(Bytes)) return std::static_pointer_cast<const Bytes>(value_);
+  auto bytes = load();
+  if (!bytes && value_) bytes = std::make_shared<const Bytes>(encode_(value_.get()));
+  return bytes;
 }
 
 bool Artifact::try_load() const {
   const std::lock_guard lock(mutex_);
   if (bytes_ || value_) return true;
-  if (loader_) bytes_ = loader_();
-  return bytes_.has_value();
+  bytes_ = load();
+  return bytes_ != nullptr;
 }
 
 void Artifact::stored(Loader loader) {
@@ -34,7 +41,7 @@ void Artifact::stored(Loader loader) {
 void Artifact::restore(Bytes bytes) {
   SF_EXPECT(sha256(bytes) == digest_);
   const std::lock_guard lock(mutex_);
-  bytes_ = std::move(bytes);
+  bytes_ = std::make_shared<const Bytes>(std::move(bytes));
 }
 
 }  // namespace skinforge

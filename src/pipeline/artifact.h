@@ -36,8 +36,9 @@ class Artifact {
   template <class T>
   const T& get() const;
 
-  /// The bytes as stored, loaded anew when they are not held; none when the loader has none.
-  std::optional<Bytes> bytes() const;
+  /// The bytes as stored: those held, else loaded anew, else encoded from the value. None when the value is
+  /// not held either.
+  std::shared_ptr<const Bytes> bytes() const;
 
   /// Loads the bytes unless they, or the value, are held. False when the loader has none.
   bool try_load() const;
@@ -50,28 +51,31 @@ class Artifact {
 
  private:
   template <class T>
-  const T& hold(T value) const;
+  const T& hold(std::shared_ptr<const T> value) const;
+  std::shared_ptr<const Bytes> load() const;
   void expect_type(std::type_index type) const;
 
   Digest digest_;
   std::uint64_t size_ = 0;
   mutable std::mutex mutex_;
   Loader loader_;
-  mutable std::optional<Bytes> bytes_;
+  mutable std::shared_ptr<const Bytes> bytes_;
   mutable std::shared_ptr<const void> value_;
   mutable std::optional<std::type_index> type_;
+  mutable Bytes (*encode_)(const void* value) = nullptr;
 };
 
 template <class T>
 std::shared_ptr<Artifact> Artifact::of(T value) {
-  Bytes bytes;
+  const auto held = std::make_shared<const T>(std::move(value));
+  std::shared_ptr<const Bytes> bytes;
   if constexpr (std::is_same_v<T, Bytes>)
-    bytes = value;
+    bytes = held;
   else
-    bytes = to_bytes(value);
-  auto artifact = std::make_shared<Artifact>(sha256(bytes), bytes.size(), Loader());
+    bytes = std::make_shared<const Bytes>(to_bytes(*held));
+  auto artifact = std::make_shared<Artifact>(sha256(*bytes), bytes->size(), Loader());
   artifact->bytes_ = std::move(bytes);
-  artifact->hold(std::move(value));
+  artifact->hold(held);
   return artifact;
 }
 
@@ -82,20 +86,21 @@ const T& Artifact::get() const {
     expect_type(typeid(T));
     return *static_cast<const T*>(value_.get());
   }
-  std::optional<Bytes> bytes = bytes_ || !loader_ ? std::exchange(bytes_, std::nullopt) : loader_();
+  const std::shared_ptr<const Bytes> bytes = bytes_ || !loader_ ? std::exchange(bytes_, nullptr) : load();
   if (!bytes) throw Error(ExitCode::Internal, "artifact " + digest_.hex() + " is not there any more");
   if constexpr (std::is_same_v<T, Bytes>)
-    return hold(*std::move(bytes));
+    return hold<T>(bytes);
   else
-    return hold(from_bytes<T>(*bytes));
+    return hold(std::make_shared<const T>(from_bytes<T>(*bytes)));
 }
 
 template <class T>
-const T& Artifact::hold(T value) const {
-  const auto held = std::make_shared<const T>(std::move(value));
-  value_ = held;
+const T& Artifact::hold(std::shared_ptr<const T> value) const {
+  value_ = value;
   type_ = typeid(T);
-  return *held;
+  if constexpr (!std::is_same_v<T, Bytes>)
+    encode_ = [](const void* held) { return to_bytes(*static_cast<const T*>(held)); };
+  return *value;
 }
 
 }  // namespace skinforge

@@ -87,9 +87,13 @@ std::optional<Bytes> Cache::blob(const Digest& digest) {
   return bytes;
 }
 
+bool Cache::has_blob(const Digest& digest, std::uint64_t size) const {
+  return store_.size(path_of(kBlobs, digest)) == size;
+}
+
 bool Cache::put_blob(const Digest& digest, std::span<const std::byte> bytes) {
   const std::string path = path_of(kBlobs, digest);
-  if (store_.size(path) == bytes.size()) return true;
+  if (has_blob(digest, bytes.size())) return true;
   if (store_.write(path, bytes)) return true;
   warn("cache-not-writable", path, "the cache cannot be written; results are not kept");
   return false;
@@ -142,9 +146,8 @@ Cache::Stats Cache::stats() {
 }
 
 bool Cache::has_blobs(const Manifest& manifest) const {
-  return std::all_of(manifest.outputs.begin(), manifest.outputs.end(), [&](const Manifest::Output& o) {
-    return store_.size(path_of(kBlobs, o.digest)) == o.size;
-  });
+  return std::all_of(manifest.outputs.begin(), manifest.outputs.end(),
+                     [&](const Manifest::Output& o) { return has_blob(o.digest, o.size); });
 }
 
 std::vector<std::string> Cache::verify() {

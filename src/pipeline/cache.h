@@ -60,6 +60,8 @@ class Cache {
   std::optional<Manifest> peek(const Digest& key);
   /// The blob of that digest; a damaged one is removed and counts as missing.
   std::optional<Bytes> blob(const Digest& digest);
+  /// Whether there is a blob of that digest with the right length.
+  bool has_blob(const Digest& digest, std::uint64_t size) const;
   /// Stores a blob unless it is there. False when the store refuses.
   bool put_blob(const Digest& digest, std::span<const std::byte> bytes);
   /// Stores a manifest; its blobs must be stored.

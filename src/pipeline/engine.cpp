@@ -170,12 +170,9 @@ const Artifact& Engine::loaded(const std::string& name) {
 
 Bytes Engine::bytes(const std::string& name) {
   const Artifact& artifact = loaded(name);
-  std::optional<Bytes> bytes = artifact.bytes();
-  if (!bytes) {
-    session_->remake(*session_->slot(name).maker, name);
-    bytes = artifact.bytes();
-  }
-  return *std::move(bytes);
+  const std::shared_ptr<const Bytes> bytes = artifact.bytes();
+  SF_EXPECT(bytes != nullptr);
+  return *bytes;
 }
 
 }  // namespace skinforge

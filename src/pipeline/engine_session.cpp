@@ -114,7 +114,7 @@ void Engine::Session::store(Node& node, const std::vector<std::shared_ptr<Artifa
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const Digest& digest = outputs[i]->digest();
     manifest.outputs.push_back({node.info.writes[i], digest, outputs[i]->size()});
-    if (cache.put_blob(digest, *outputs[i]->bytes()))
+    if (cache.has_blob(digest, outputs[i]->size()) || cache.put_blob(digest, *outputs[i]->bytes()))
       outputs[i]->stored(loader(digest));
     else
       is_stored = false;
@@ -132,7 +132,7 @@ void Engine::Session::ensure(const std::string& name) {
 
 void Engine::Session::remake(Node& node, const std::string& wanted) {
   const std::lock_guard alone(node.remaking);
-  if (artifact(wanted)->try_load() && artifact(wanted)->bytes()) return;  // somebody else did
+  if (artifact(wanted)->try_load()) return;  // somebody else did
   IssueSink issues;
   StageCost cost;
   const auto outputs = execute(node, issues, cost);

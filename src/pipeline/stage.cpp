@@ -14,11 +14,16 @@ std::string issues_artifact(const std::string& first_output) {
   return "issues:" + first_output;
 }
 
-const Artifact& StageInput::artifact(std::string_view name) const {
+const std::shared_ptr<Artifact>& StageInput::shared(std::string_view name) const {
   const auto found = artifacts_.find(name);
   if (found == artifacts_.end())
     throw Error(ExitCode::Internal, "artifact \"" + std::string(name) + "\" is read but not declared");
-  return *found->second;
+  return found->second;
+}
+
+void StageOutput::pass(std::string_view name, const StageInput& in, std::string_view input) {
+  expect_open(name);
+  artifacts_.emplace(std::string(name), in.shared(input));
 }
 
 void StageOutput::expect_open(std::string_view name) const {

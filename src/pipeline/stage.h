@@ -33,7 +33,7 @@ std::string issues_artifact(const std::string& first_output);
 /// The artifacts that a stage declared in `reads`, and no others.
 class StageInput {
  public:
-  using Artifacts = std::map<std::string, std::shared_ptr<const Artifact>, std::less<>>;
+  using Artifacts = std::map<std::string, std::shared_ptr<Artifact>, std::less<>>;
   explicit StageInput(Artifacts artifacts) : artifacts_(std::move(artifacts)) {}
 
   /// The value of a declared artifact: decoded when first asked for, shared with the other readers, alive
@@ -46,7 +46,9 @@ class StageInput {
   const Digest& digest(std::string_view name) const { return artifact(name).digest(); }
 
  private:
-  const Artifact& artifact(std::string_view name) const;
+  friend class StageOutput;
+  const std::shared_ptr<Artifact>& shared(std::string_view name) const;
+  const Artifact& artifact(std::string_view name) const { return *shared(name); }
   Artifacts artifacts_;
 };
 
@@ -62,6 +64,9 @@ class StageOutput {
     expect_open(name);
     artifacts_.emplace(std::string(name), Artifact::of(std::move(value)));
   }
+
+  /// Hands over an input as it is: nothing is copied, encoded or hashed anew.
+  void pass(std::string_view name, const StageInput& in, std::string_view input);
 
   /// What was put, in the order of `writes`. Throws Error (Internal) when one is missing.
   std::vector<std::shared_ptr<Artifact>> take() const;

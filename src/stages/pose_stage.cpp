@@ -27,8 +27,9 @@ class PoseInput final : public Stage {
   void add_to_key(Hasher& key) const override { key.add_value("pose", changes_); }
 
   void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
+    if (changes_.empty()) return out.pass(names_.character(input_), in, names_.imported(input_));
     Character character = in.get<Character>(names_.imported(input_));
-    if (!changes_.empty()) pose(character);
+    pose(character);
     out.put(names_.character(input_), std::move(character));
   }
 

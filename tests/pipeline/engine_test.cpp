@@ -106,6 +106,39 @@ TEST(Engine, AHitStaysUndecodedUntilSomebodyAsks) {
   EXPECT_THAT(cache.take_warnings(), IsEmpty());
 }
 
+// Hands its input on under another name.
+struct PassingStage final : Stage {
+  StageInfo info() const override { return {.name = "pass", .reads = {"a"}, .writes = {"same"}}; }
+  void add_to_key(Hasher&) const override {}
+  void run(const StageInput& in, StageOutput& out, IssueSink&) const override { out.pass("same", in, "a"); }
+};
+
+TEST(Engine, AnInputPassedOnIsReadUnderBothNamesAndStoredOnce) {
+  MemoryStore store;
+  for (int build = 0; build < 2; ++build) {
+    Cache cache(store);
+    Engine engine(cache, {});
+    Diamond().add_to(engine);
+    engine.add(std::make_unique<PassingStage>());
+    engine.run();
+    ASSERT_TRUE(engine.is_ok());
+    EXPECT_EQ(engine.digest("same"), engine.digest("a"));
+    EXPECT_EQ(engine.get<Text>("same").value, "A");
+    EXPECT_EQ(engine.bytes("same"), engine.bytes("a"));
+  }
+}
+
+TEST(Engine, AValueInMemoryGivesItsBytesWhenTheCacheLostThem) {
+  MemoryStore store;
+  Cache cache(store);
+  Engine engine(cache, {});
+  Diamond().add_to(engine);
+  engine.run();
+  const Bytes stored = engine.bytes("d");
+  std::erase_if(store.entries, [](const auto& entry) { return entry.first.starts_with("cas/"); });
+  EXPECT_EQ(engine.bytes("d"), stored);
+}
+
 TEST(Engine, BytesAreStoredRaw) {
   struct RawStage final : Stage {
     StageInfo info() const override { return {.name = "raw", .writes = {"file"}}; }
