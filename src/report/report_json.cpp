@@ -1,5 +1,6 @@
 #include "report/report_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <type_traits>
@@ -131,24 +132,30 @@ Json schema_of() {
   }
 }
 
-std::string one_line(const Json& value) {
-  if (value.is_primitive()) return value.dump();
-  std::string line;
-  for (const auto& item : value.items()) {
-    if (!line.empty()) line += ", ";
-    if (value.is_object()) line += Json(item.key()).dump() + ": ";
-    line += one_line(item.value());
+// Appends a value in one line. False as soon as `text` has outgrown `limit`: it is then cut somewhere.
+bool append_line(const Json& value, std::size_t limit, std::string& text) {
+  if (value.is_primitive()) {
+    text += value.dump();
+    return text.size() <= limit;
   }
-  return value.is_array() ? "[" + line + "]" : "{" + line + "}";
+  text += value.is_array() ? '[' : '{';
+  bool is_first = true;
+  for (const auto& item : value.items()) {
+    if (!is_first) text += ", ";
+    is_first = false;
+    if (value.is_object()) text += Json(item.key()).dump() + ": ";
+    if (!append_line(item.value(), limit, text)) return false;
+  }
+  text += value.is_array() ? ']' : '}';
+  return text.size() <= limit;
 }
 
 // One line where it fits, else one item a line.
 void print(const Json& value, std::size_t indent, std::string& text) {
-  const std::string line = one_line(value);
-  if (value.is_primitive() || value.empty() || indent + line.size() <= kLineLength) {
-    text += line;
-    return;
-  }
+  const std::size_t begin = text.size();
+  const bool fits = append_line(value, begin + kLineLength - std::min(indent, kLineLength), text);
+  if (fits || value.is_primitive() || value.empty()) return;
+  text.resize(begin);
   text += value.is_array() ? "[\n" : "{\n";
   bool is_first = true;
   for (const auto& item : value.items()) {
