@@ -21,18 +21,19 @@ double mean_border_edge(const std::vector<JunctionLoop>& loops) {
   return length / edges;
 }
 
-// Free vertices onto delta_R = 0 by Newton steps, each at most half a voxel; far off ones stay.
+// Free vertices onto delta_R = 0 by Newton steps, each at most half a voxel; far off ones stay. The gradient
+// of a distance has length 1, and less near a medial sheet: there the steps are shorter than Newton's, which
+// would throw a vertex farther the less its direction is known.
 Projection onto_field(const DistanceField& field) {
-  const double near = 1e-3 * field.lattice.voxel;  // ours: far below what one can see
+  static constexpr double kLeastSquared = 0.5;     // ours: of the gradient
+  const double near = 1e-5 * field.lattice.voxel;  // ours: where equal inputs at two scales still agree
   return [&field, near](const Vec3& start) {
     Vec3 p = start;
     for (int step = 0; step < 3; ++step) {
       const double value = field.at(p);
       if (std::abs(value) < near) break;
       const Vec3 gradient = field.gradient(p);
-      const double squared = gradient.squaredNorm();
-      if (!(squared > 1e-4)) break;  // the gradient of a distance has length 1; near 0 lies a medial sheet
-      Vec3 move = -value / squared * gradient;
+      Vec3 move = -value / std::max(gradient.squaredNorm(), kLeastSquared) * gradient;
       const double longest = 0.5 * field.lattice.voxel;
       if (move.norm() > longest) move *= longest / move.norm();
       p += move;

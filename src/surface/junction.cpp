@@ -6,9 +6,12 @@
 #include "surface/bridge.h"
 #include "surface/field_junction.h"
 #include "surface/junction_faults.h"
+#include "surface/untangle.h"
 
 namespace skinforge {
 namespace {
+
+constexpr std::size_t kMostTangles = 64;  // ours: more than a few do not come apart by moving vertices
 
 // One way to make a junction.
 struct Attempt {
@@ -26,9 +29,10 @@ class Ladder {
   bool is_empty() const { return !best_; }
   const std::optional<Attempt>& best() const { return best_; }
 
-  void offer(TrianglePatch patch, JunctionRung rung) {
-    const JunctionFaults faults = faults_of(patch, loops_, kept_);
-    if (!best_ || faults < best_->faults) best_ = Attempt{std::move(patch), rung, faults};
+  void offer(const TrianglePatch& patch, JunctionRung rung) {
+    take_if_better(patch, rung);
+    if (best_->faults.self_intersections > 0 && best_->faults.self_intersections <= kMostTangles)
+      take_if_better(untangled(best_->patch, loops_, kept_), best_->rung);
   }
 
   // For what costs something else: takes it only if it has no fault at all.
@@ -37,6 +41,11 @@ class Ladder {
   }
 
  private:
+  void take_if_better(const TrianglePatch& patch, JunctionRung rung) {
+    const JunctionFaults faults = faults_of(patch, loops_, kept_);
+    if (!best_ || faults < best_->faults) best_ = Attempt{patch, rung, faults};
+  }
+
   const std::vector<JunctionLoop>& loops_;
   const KeptSurface& kept_;
   std::optional<Attempt> best_;

@@ -84,6 +84,18 @@ std::vector<std::pair<SourceId, FaceId>> faces_cut_by(const TrianglePatch& patch
   return faces;
 }
 
+std::set<std::int32_t> intersecting_triangles(const TrianglePatch& patch,
+                                              const std::vector<JunctionLoop>& loops,
+                                              const KeptSurface& kept) {
+  const Neighbourhood all = neighbourhood(patch, loops, kept);
+  std::set<std::int32_t> triangles;
+  for (const auto& [a, b] : self_intersections(all.positions, all.triangles, all.is_new))
+    for (const auto t : {a, b})
+      if (static_cast<std::size_t>(t) < patch.triangles.size())
+        triangles.insert(static_cast<std::int32_t>(t));
+  return triangles;
+}
+
 JunctionFaults faults_of(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,
                          const KeptSurface& kept) {
   const Neighbourhood all = neighbourhood(patch, loops, kept);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,11 @@ std::string describe(const JunctionFaults& faults);
 std::vector<std::pair<SourceId, FaceId>> faces_cut_by(const TrianglePatch& patch,
                                                       const std::vector<JunctionLoop>& loops,
                                                       const KeptSurface& kept);
+
+/// Triangles of a patch that intersect others, or preserved faces.
+std::set<std::int32_t> intersecting_triangles(const TrianglePatch& patch,
+                                              const std::vector<JunctionLoop>& loops,
+                                              const KeptSurface& kept);
 
 /// Faults of a patch whose fixed vertices are those of `loops`, among the preserved faces.
 JunctionFaults faults_of(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,

@@ -9,6 +9,8 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace skinforge {
 namespace {
@@ -46,6 +48,15 @@ Vec3 face_cross(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b - a).cross(c - a);
 }
 
+// Below this share of its longest edge squared, twice a face's area is rounding, and where it faces is
+// chance.
+constexpr double kNoArea = 1e-4;
+
+bool has_area(const Vec3& cross, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return cross.norm() > kNoArea * longest;
+}
+
 // Whether moving `v` to `place` turns over any of its faces, or leaves one of them without area.
 bool turns_faces(const Mesh& mesh, VertexHandle v, const Vec3& place, VertexHandle except_a = VertexHandle(),
                  VertexHandle except_b = VertexHandle()) {
@@ -56,7 +67,7 @@ bool turns_faces(const Mesh& mesh, VertexHandle v, const Vec3& place, VertexHand
     if (p == except_a || q == except_a || p == except_b || q == except_b) continue;
     const Vec3 before = face_cross(mesh.point(v), mesh.point(p), mesh.point(q));
     const Vec3 after = face_cross(place, mesh.point(p), mesh.point(q));
-    if (before.norm() == 0) continue;
+    if (!has_area(before, mesh.point(v), mesh.point(p), mesh.point(q))) continue;
     if (after.dot(before) < kLeastCosine * after.norm() * before.norm() ||
         after.norm() < 1e-3 * before.norm())
       return true;
@@ -149,8 +160,11 @@ void flip_towards_regular(Mesh& mesh) {
     const Vec3 first = face_cross(mesh.point(c), mesh.point(a), mesh.point(d)),
                second = face_cross(mesh.point(d), mesh.point(b), mesh.point(c));
     constexpr double kLeastCosine = 0.3;  // ours: the new faces keep facing the way the old ones did
-    if (first.dot(normal) < kLeastCosine * first.norm() * normal.norm()) continue;
-    if (second.dot(normal) < kLeastCosine * second.norm() * normal.norm()) continue;
+    const auto faces_away = [&](const Vec3& cross, VertexHandle p, VertexHandle q, VertexHandle r) {
+      return has_area(cross, mesh.point(p), mesh.point(q), mesh.point(r)) &&
+             cross.dot(normal) < kLeastCosine * cross.norm() * normal.norm();
+    };
+    if (faces_away(first, c, a, d) || faces_away(second, d, b, c)) continue;
     mesh.flip(e);
   }
 }
@@ -234,6 +248,15 @@ void set_target_lengths(Mesh& mesh, double inner_scale) {
     mesh.data(v).length = std::exp(logarithm[v.idx()]) * (mesh.is_boundary(v) ? 1 : inner_scale);
 }
 
+// Whether a directed edge is used twice: OpenMesh would leave out the face, and say so on stderr.
+bool has_complex_edge(const TrianglePatch& patch) {
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  for (const Triangle& t : patch.triangles)
+    for (int k = 0; k < 3; ++k)
+      if (!edges.insert({t[k], t[(k + 1) % 3]}).second) return true;
+  return false;
+}
+
 Mesh to_mesh(const TrianglePatch& patch) {
   Mesh mesh;
   for (std::size_t v = 0; v < patch.positions.size(); ++v)
@@ -259,9 +282,9 @@ TrianglePatch to_patch(const Mesh& mesh, std::size_t fixed) {
 }  // namespace
 
 TrianglePatch remesh(const TrianglePatch& patch, const Projection& project, const RemeshOptions& options) {
+  if (has_complex_edge(patch)) return patch;  // better unchanged than with a hole
   Mesh mesh = to_mesh(patch);
-  if (mesh.n_faces() != patch.triangles.size())
-    return patch;  // not manifold: better unchanged than with a hole
+  if (mesh.n_faces() != patch.triangles.size()) return patch;  // a vertex that OpenMesh does not take
   set_target_lengths(mesh, options.length_scale);
   for (int pass = 0; pass < options.passes; ++pass) {
     split_long_edges(mesh, options.split_ratio);

@@ -58,7 +58,8 @@ TEST(Remesh, TubeWallOnItsCylinder) {
   expect_same_frame(before, after);
   EXPECT_EQ(testing::topology_of(after).euler, 0);
   const auto lengths = free_edge_lengths(after);
-  EXPECT_NEAR(mean(lengths), kBorderEdge, 0.1 * kBorderEdge);
+  // Lengths spread evenly between 4/5 and 4/3 have the mean 1.07; the rest is room for relaxation.
+  EXPECT_NEAR(mean(lengths), kBorderEdge, 0.12 * kBorderEdge);
   // Four splits and collapses apart by the ratios 4/5 and 4/3; relaxation moves the ends once more.
   EXPECT_GT(*std::min_element(lengths.begin(), lengths.end()), 0.5 * kBorderEdge);
   EXPECT_LT(*std::max_element(lengths.begin(), lengths.end()), 1.6 * kBorderEdge);
