@@ -11,6 +11,7 @@
 #include "skinning/linear_blend.h"
 #include "stages/decoded_images.h"
 #include "stages/pictures.h"
+#include "stages/site_solids.h"
 
 namespace skinforge {
 namespace {
@@ -39,17 +40,44 @@ Eigen::AlignedBox3d bounds_of(const PolygonMesh& mesh, std::span<const FaceId> f
   return box;
 }
 
+Vec3 place_of(const Graft& graft, std::size_t site) {
+  return graft.skeleton[graft.sites[site].fused].joint_from_model.inverse().translation();
+}
+
+Vec3 centre_of(const PolygonMesh& mesh, FaceId f) {
+  Vec3 sum = Vec3::Zero();
+  for (const VertexId v : mesh.face(f)) sum += mesh.positions[v.index()];
+  return sum / static_cast<double>(mesh.face(f).size());
+}
+
+/// The faces of a site's junction; where several sites have one junction, those nearest to this one's joint.
+std::vector<FaceId> junction_faces(const PolygonMesh& mesh, const JoinedSurface& joined, const Graft& graft,
+                                   const SiteGroup& group, std::size_t site) {
+  const auto is_near = [&](FaceId f) {
+    const Vec3 centre = centre_of(mesh, f);
+    const double distance = (centre - place_of(graft, site)).norm();
+    return std::all_of(group.begin(), group.end(), [&](std::size_t other) {
+      return other == site || distance <= (centre - place_of(graft, other)).norm();
+    });
+  };
+  std::vector<FaceId> faces;
+  for (std::size_t f = 0; f < joined.faces.size(); ++f)
+    if (joined.faces[f].site == static_cast<std::int32_t>(group.front()) &&
+        (group.size() == 1 || is_near(FaceId(f))))
+      faces.push_back(FaceId(f));
+  return faces;
+}
+
 /// What a person looks at first: rest, junctions, weights, a strip of frames of each clip.
 class Pictures final : public Stage {
  public:
   Pictures(ArtifactNames names, const Recipe& recipe, std::span<const ClipRequest> clips)
-      : names_(std::move(names)),
-        site_count_(recipe.operations.size()),
-        clips_(clips.begin(), clips.end()),
-        all_(picture_names(recipe, clips)) {}
+      : names_(std::move(names)), clips_(clips.begin(), clips.end()), all_(picture_names(recipe, clips)) {}
 
   StageInfo info() const override {
-    StageInfo info{.name = "pictures", .version = 1, .reads = {names_.result(), names_.surface()}};
+    StageInfo info{.name = "pictures",
+                   .version = 2,
+                   .reads = {names_.result(), names_.surface(), names_.graft(), names_.groups()}};
     for (const std::string& name : all_) info.writes.push_back(names_.picture(name));
     return info;
   }
@@ -65,19 +93,20 @@ class Pictures final : public Stage {
     };
     put("rest", rest_picture(subject));
     put("weights", weights_picture(subject, character.weights, character.skeleton.size()));
-    for (std::size_t k = 0; k < site_count_; ++k)
-      put(junction_name(k), junction_close_up(subject, joined, k));
+    const auto& graft = in.get<Graft>(names_.graft());
+    for (const SiteGroup& group : in.get<std::vector<SiteGroup>>(names_.groups()))
+      for (const std::size_t site : group) {
+        const auto faces = junction_faces(character.mesh, joined, graft, group, site);
+        put(junction_name(site), junction_close_up(subject, faces, site));
+      }
     const std::vector<std::string> strips = clip_picture_names(clips_);
     for (std::size_t c = 0; c < clips_.size(); ++c)
       put(strips[c], clip_picture(subject, frames_of(character, character.clips[c]), clips_[c].name));
   }
 
  private:
-  // A site without a junction of its own shows the whole character.
-  static Raster junction_close_up(const Subject& subject, const JoinedSurface& joined, std::size_t site) {
-    std::vector<FaceId> faces;
-    for (std::size_t f = 0; f < joined.faces.size(); ++f)
-      if (joined.faces[f].site == static_cast<std::int32_t>(site)) faces.push_back(FaceId(f));
+  // A site without a junction shows the whole character.
+  static Raster junction_close_up(const Subject& subject, std::span<const FaceId> faces, std::size_t site) {
     if (faces.empty()) return rest_picture(subject);
     const Eigen::AlignedBox3d box = bounds_of(subject.mesh(), faces);
     return junction_picture(
@@ -85,7 +114,6 @@ class Pictures final : public Stage {
   }
 
   ArtifactNames names_;
-  std::size_t site_count_;
   std::vector<ClipRequest> clips_;
   std::vector<std::string> all_;
 };
