@@ -175,37 +175,64 @@ int straighten_border(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& k
   return removed;
 }
 
-void drop_crumbs(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept, int least_faces) {
-  std::vector<std::int32_t> root(mesh.face_count());
+namespace {
+
+// Kept faces that are connected by edges.
+struct FaceGroups {
+  std::vector<std::int32_t> of_face;  // a group is known by one of its faces
+  std::vector<int> size;              // by group
+  std::vector<int> border_edges;      // by group
+
+  int largest() const { return *std::max_element(size.begin(), size.end()); }
+};
+
+FaceGroups group_faces(const PolygonMesh& mesh, const EdgeList& edges, const FaceSet& kept) {
+  FaceGroups groups;
+  std::vector<std::int32_t>& root = groups.of_face;
+  root.resize(mesh.face_count());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](std::int32_t f) {
     while (root[f] != f) f = root[f] = root[root[f]];
     return f;
   };
-  std::vector<char> touches_border(mesh.face_count(), 0);
-  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+  for (const Edge& edge : edges.edges) {
     std::int32_t first = -1;
-    for (const std::int32_t corner : edges.edges[e].half_edges) {
+    for (const std::int32_t corner : edge.half_edges) {
       const FaceId face = edges.face_of_corner[corner];
       if (!kept[face.index()]) continue;
       if (first < 0)
         first = find(face.value);
       else
         root[find(face.value)] = first = find(first);
-      if (is_border_edge(edges, kept, static_cast<std::int32_t>(e))) touches_border[face.index()] = 1;
     }
   }
-  std::vector<int> size(mesh.face_count(), 0);
-  std::vector<char> group_touches(mesh.face_count(), 0);
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    if (!kept[f]) continue;
-    const std::int32_t group = find(static_cast<std::int32_t>(f));
-    ++size[group];
-    group_touches[group] |= touches_border[f];
+  for (std::size_t f = 0; f < root.size(); ++f) root[f] = find(static_cast<std::int32_t>(f));
+  groups.size.assign(mesh.face_count(), 0);
+  groups.border_edges.assign(mesh.face_count(), 0);
+  for (std::size_t f = 0; f < root.size(); ++f)
+    if (kept[f]) ++groups.size[root[f]];
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+    if (!is_border_edge(edges, kept, static_cast<std::int32_t>(e))) continue;
+    for (const std::int32_t corner : edges.edges[e].half_edges)
+      if (const FaceId face = edges.face_of_corner[corner]; kept[face.index()])
+        ++groups.border_edges[root[face.index()]];
   }
+  return groups;
+}
+
+constexpr int kScrapShare = 20;  // ours: the claws of a foot are a third of what is left of it, and stay
+
+}  // namespace
+
+void drop_crumbs(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept, int least_faces) {
+  if (mesh.face_count() == 0) return;
+  const FaceGroups groups = group_faces(mesh, edges, kept);
+  const int largest = groups.largest();
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    const std::int32_t group = find(static_cast<std::int32_t>(f));
-    if (kept[f] && group_touches[group] && size[group] < least_faces) kept[f] = 0;
+    const std::int32_t g = groups.of_face[f];
+    const bool is_small = groups.size[g] < least_faces;
+    const bool is_scrap = kScrapShare * groups.size[g] < largest && groups.size[g] <= groups.border_edges[g];
+    if (groups.border_edges[g] > 0 && (is_small || is_scrap)) kept[f] = 0;
   }
 }
 

@@ -35,8 +35,8 @@ void open_face_set(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept
 /// (junction.md b.0, step 3). Returns the number removed.
 int straighten_border(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept, int max_loss);
 
-/// Groups of kept faces (connected by edges) of fewer than `least_faces` faces that touch the border go:
-/// crumbs that no one would sign.
+/// Crumbs that no one would sign go: groups of kept faces (connected by edges) that touch the border and have
+/// fewer than `least_faces` faces, or, beside one twenty times as large, no more faces than border edges.
 void drop_crumbs(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept, int least_faces);
 
 }  // namespace skinforge

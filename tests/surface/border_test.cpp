@@ -158,9 +158,21 @@ TEST(DropCrumbs, SmallGroupsAtTheBorder) {
   Picture p({"##..#", "##..#"});
   drop_crumbs(p.mesh, p.edges, p.kept, 3);
   EXPECT_THAT(p.rows(), ElementsAre("##...", "##..."));
-  Picture whole({"#"});
+  Picture whole({"#"});  // touches no border
   drop_crumbs(whole.mesh, whole.edges, whole.kept, 3);
   EXPECT_THAT(whole.rows(), ElementsAre("#"));
+}
+
+// By hand, without the outer edges of the mesh: the scrap on the right has 2 faces and 2 border edges, the
+// wide part 41 faces, then 40.
+TEST(DropCrumbs, ScrapsBesideAMuchLargerGroup) {
+  const std::string row(20, '#');
+  Picture p({row + "#.#", row + "..#"});
+  drop_crumbs(p.mesh, p.edges, p.kept, 1);
+  EXPECT_THAT(p.rows(), ElementsAre(row + "#..", row + "..."));
+  Picture claws({row + "..#", row + "..#"});
+  drop_crumbs(claws.mesh, claws.edges, claws.kept, 1);
+  EXPECT_THAT(claws.rows(), ElementsAre(row + "..#", row + "..#"));
 }
 
 }  // namespace
