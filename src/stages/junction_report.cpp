@@ -12,6 +12,8 @@ std::int64_t wide(std::size_t n) {
 
 const char* name_of(JunctionRung rung) {
   switch (rung) {
+    case JunctionRung::Tube:
+      return "tube";
     case JunctionRung::Field:
       return "field";
     case JunctionRung::Bridge:
@@ -36,9 +38,9 @@ JunctionReport report_junction(const SurfaceResult& surface, std::size_t site, c
   r.voxel = junction.voxel;
   for (const JunctionLoop& loop : junction.loops) r.border_loops.push_back(wide(loop.vertices.size()));
   if (junction.patch.triangles.empty()) return r;
+  const bool on_field = junction.rung == JunctionRung::Tube || junction.rung == JunctionRung::Field;
   const JunctionMeasures m =
-      measure_junction(surface.joined, static_cast<std::int32_t>(site),
-                       junction.rung == JunctionRung::Field ? &field.distance : nullptr);
+      measure_junction(surface.joined, static_cast<std::int32_t>(site), on_field ? &field.distance : nullptr);
   r.components = wide(m.components);
   r.faces = wide(m.faces);
   r.quads = wide(m.quads);
@@ -46,7 +48,7 @@ JunctionReport report_junction(const SurfaceResult& surface, std::size_t site, c
   r.boundary_edges = wide(m.boundary_edges);
   r.non_manifold_edges = wide(m.non_manifold_edges);
   r.degenerate_faces = wide(m.degenerate_faces);
-  if (junction.rung == JunctionRung::Field) r.folded_faces = wide(m.folded_faces);
+  if (on_field) r.folded_faces = wide(m.folded_faces);
   r.self_intersections = wide(m.self_intersections);
   r.irregular_vertices = wide(m.irregular_vertices);
   r.scaled_jacobian = distribution_of(m.scaled_jacobian);

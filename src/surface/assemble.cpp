@@ -51,7 +51,8 @@ class Assembler {
     result_.junction_part.push_back(part);
     result_.mesh.parts.push_back({"junction" + std::to_string(site + 1), 0, true, false});
     const std::vector<VertexId> names = junction_vertices(junction, site);
-    const PolygonMesh polygons = paired_patch(junction.patch);
+    add_halved_quads(junction, names, part, site);
+    const PolygonMesh polygons = paired_patch(junction.patch, 2 * junction.quads);
     for (std::size_t f = 0; f < polygons.face_count(); ++f) {
       for (const VertexId v : polygons.face(FaceId(f))) add_plain_corner(names[v.index()]);
       close_face(MaterialId(), part, {SourceId(), FaceId(), site});
@@ -109,12 +110,24 @@ class Assembler {
     return names;
   }
 
-  static PolygonMesh paired_patch(const TrianglePatch& patch) {
+  // Quads that the junction was made of; each begins where its halves do.
+  void add_halved_quads(const Junction& junction, const std::vector<VertexId>& names, PartId part,
+                        std::int32_t site) {
+    for (std::size_t k = 0; k < junction.quads; ++k) {
+      const Triangle& first = junction.patch.triangles[2 * k];
+      for (const std::int32_t v : {first[0], first[1], first[2], junction.patch.triangles[2 * k + 1][2]})
+        add_plain_corner(names[v]);
+      close_face(MaterialId(), part, {SourceId(), FaceId(), site});
+    }
+  }
+
+  // The triangles from `begin` on, paired to quads where that makes good ones.
+  static PolygonMesh paired_patch(const TrianglePatch& patch, std::size_t begin) {
     PolygonMesh mesh;
     mesh.positions = patch.positions;
     mesh.parts = {{"junction", 0, false, false}};
     mesh.face_begin = {0};
-    for (const Triangle& t : patch.triangles) {
+    for (const Triangle& t : std::span(patch.triangles).subspan(begin)) {
       for (const std::int32_t v : t) mesh.corners.emplace_back(v);
       mesh.face_begin.push_back(static_cast<std::int32_t>(mesh.corners.size()));
       mesh.face_material.emplace_back();

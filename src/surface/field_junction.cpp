@@ -8,11 +8,15 @@
 #include <set>
 
 #include "surface/borders.h"
+#include "surface/quad_gate.h"
 #include "surface/remesh.h"
 #include "surface/trim.h"
+#include "surface/tube.h"
 
 namespace skinforge {
 namespace {
+
+constexpr double kDomainScale = 0.5;  // ours: of the edges of the patch that carries a tube's coordinates
 
 double mean_border_edge(const std::vector<JunctionLoop>& loops) {
   double length = 0, edges = 0;
@@ -162,6 +166,13 @@ std::optional<TrianglePatch> FieldJunction::zipped(double clearance, std::string
 
 TrianglePatch FieldJunction::remeshed(const TrianglePatch& zipped, double length_scale) const {
   return remesh(zipped, onto_field(field_.distance), {.length_scale = length_scale});
+}
+
+std::optional<QuadPatch> FieldJunction::tube(const TrianglePatch& patch, std::string& fault) const {
+  auto quads = quad_tube(remeshed(patch, kDomainScale), loops_, onto_field(field_.distance), fault);
+  if (quads) fault = fault_of(*quads, field_.distance);
+  if (!fault.empty()) quads.reset();
+  return quads;
 }
 
 }  // namespace skinforge

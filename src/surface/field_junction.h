@@ -5,6 +5,7 @@
 
 #include "surface/junction_loop.h"
 #include "surface/kept_surface.h"
+#include "surface/quad_patch.h"
 #include "surface/site_field.h"
 
 namespace skinforge {
@@ -19,6 +20,10 @@ class FieldJunction {
   /// to the borders. None when a border has no ring of its own or the two sides stay apart; `fault` says
   /// which.
   std::optional<TrianglePatch> zipped(double clearance, std::string& fault) const;
+
+  /// A tube of quads in the place of a patch that joins two borders (`quad_tube`). None, with the reason in
+  /// `fault`, when it does not come about or does not pass the gates of its rung.
+  std::optional<QuadPatch> tube(const TrianglePatch& patch, std::string& fault) const;
 
   /// A zipped patch remeshed on the isosurface. `length_scale`: of the borders' edge lengths.
   TrianglePatch remeshed(const TrianglePatch& zipped, double length_scale) const;

@@ -16,6 +16,7 @@ constexpr std::size_t kMostTangles = 64;  // ours: more than a few do not come a
 // One way to make a junction.
 struct Attempt {
   TrianglePatch patch;
+  std::size_t quads = 0;
   JunctionRung rung = JunctionRung::None;
   JunctionFaults faults;
 };
@@ -37,19 +38,36 @@ class Ladder {
 
   // For what costs something else: takes it only if it has no fault at all.
   void offer_if_sound(TrianglePatch patch, JunctionRung rung) {
-    if (!faults_of(patch, loops_, kept_).any()) best_ = Attempt{std::move(patch), rung, {}};
+    if (!faults_of(patch, loops_, kept_).any()) best_ = Attempt{std::move(patch), 0, rung, {}};
+  }
+
+  // Takes quads if they have no fault; otherwise says what is wrong.
+  std::string offer_quads(const QuadPatch& quads) {
+    const TrianglePatch patch = halved(quads);
+    const JunctionFaults faults = faults_of(patch, loops_, kept_);
+    if (faults.any()) return describe(faults);
+    best_ = Attempt{patch, quads.quads.size(), JunctionRung::Tube, faults};
+    return {};
   }
 
  private:
   void take_if_better(const TrianglePatch& patch, JunctionRung rung) {
     const JunctionFaults faults = faults_of(patch, loops_, kept_);
-    if (!best_ || faults < best_->faults) best_ = Attempt{patch, rung, faults};
+    if (!best_ || faults < best_->faults) best_ = Attempt{patch, 0, rung, faults};
   }
 
   const std::vector<JunctionLoop>& loops_;
   const KeptSurface& kept_;
   std::optional<Attempt> best_;
 };
+
+// In place of triangles between two borders, if it is sound.
+void try_tube(Ladder& ladder, const FieldJunction& from_field, std::string& reason) {
+  std::string fault;
+  const auto quads = from_field.tube(ladder.best()->patch, fault);
+  if (quads) fault = ladder.offer_quads(*quads);
+  if (!fault.empty()) reason = "no tube of quads: " + fault;
+}
 
 // Wide clearance leaves the zip room to turn; a narrow one keeps rings apart where borders are close. Where
 // the surface is thinner than the borders' edges are long, only a finer mesh stays free of cuts.
@@ -68,6 +86,8 @@ void try_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, const Sit
     for (const TrianglePatch& patch : zipped)
       if (!ladder.is_done())
         ladder.offer_if_sound(from_field.remeshed(patch, length_scale), JunctionRung::Field);
+  if (!ladder.is_empty()) reason.clear();
+  if (!ladder.is_empty() && loops.size() == 2) try_tube(ladder, from_field, reason);
 }
 
 void try_without_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, JunctionRung rung) {
@@ -97,9 +117,9 @@ Junction build_junction(std::vector<JunctionLoop> loops, const SiteField& field,
                       has_host && has_donor ? JunctionRung::Bridge : JunctionRung::Cap);
   }
   junction.patch = ladder.best()->patch;
+  junction.quads = ladder.best()->quads;
   junction.rung = ladder.best()->rung;
   junction.faults = ladder.best()->faults;
-  if (junction.rung == JunctionRung::Field) junction.reason.clear();
   return junction;
 }
 

@@ -12,6 +12,7 @@ namespace skinforge {
 
 /// How a junction was made: the ladder of junction.md, best rung first.
 enum class JunctionRung : std::uint8_t {
+  Tube,    ///< quads from border to border on the blended field (rung 2)
   Field,   ///< isosurface of the blended field, zipped to the borders (rung 1)
   Bridge,  ///< the borders zipped directly, the strip remeshed and faired
   Cap,     ///< each border closed on its own
@@ -23,14 +24,16 @@ enum class JunctionRung : std::uint8_t {
 struct Junction {
   std::vector<JunctionLoop> loops;
   TrianglePatch patch;
+  std::size_t quads = 0;  ///< triangles 2 k and 2 k + 1 are halves of a quad, for k below this (`halved`)
   JunctionRung rung = JunctionRung::None;
-  std::string reason;  ///< why not a better rung; empty for Field, and for Cap where nothing else was asked
+  std::string reason;  ///< why not a better rung; empty where nothing better was asked
   double voxel = 0;    ///< metres; 0 without a field
   JunctionFaults faults;
 
   template <class Archive>
   friend void fields(Archive& a, Junction& j) {
-    a(j.loops, j.patch.positions, j.patch.triangles, j.patch.fixed, j.rung, j.reason, j.voxel, j.faults);
+    a(j.loops, j.patch.positions, j.patch.triangles, j.patch.fixed, j.quads, j.rung, j.reason, j.voxel,
+      j.faults);
   }
 };
 
