@@ -48,7 +48,7 @@ TEST(BuildJunction, TubesEndToEnd) {
   const JunctionScene scene = testing::tubes_end_to_end();
   ASSERT_EQ(scene.loops.size(), 2u);
   const Junction junction = scene.junction();
-  EXPECT_EQ(junction.rung, JunctionRung::Field) << junction.reason;
+  EXPECT_EQ(junction.rung, JunctionRung::Tube) << junction.reason;
   EXPECT_TRUE(junction.reason.empty());
   EXPECT_FALSE(junction.faults.any()) << describe(junction.faults);
   EXPECT_EQ(junction.voxel, scene.field.voxel());
@@ -77,7 +77,7 @@ TEST(BuildJunction, TubeAddedToABox) {
   const JunctionScene scene = testing::tube_on_a_box();
   ASSERT_EQ(scene.loops.size(), 2u);
   const Junction junction = scene.junction();
-  EXPECT_EQ(junction.rung, JunctionRung::Field) << junction.reason;
+  EXPECT_EQ(junction.rung, JunctionRung::Tube) << junction.reason;
   EXPECT_FALSE(junction.faults.any()) << describe(junction.faults);
   expect_closed_on_its_loops(junction);
   const MeshTopology whole = joined_topology(scene, junction);

@@ -44,7 +44,7 @@ TEST(RealJunction, ForearmReplaced) {
   ASSERT_EQ(scene.loops.size(), 2u);
   EXPECT_EQ(scene.arcs, 0);
   const Junction junction = scene.junction();
-  EXPECT_EQ(junction.rung, JunctionRung::Field) << junction.reason;
+  EXPECT_EQ(junction.rung, JunctionRung::Tube) << junction.reason;
   EXPECT_FALSE(junction.faults.any()) << describe(junction.faults);
   EXPECT_EQ(testing::topology_of(junction.patch).euler, 0);
   EXPECT_EQ(testing::chord_count(junction.patch), 0);
