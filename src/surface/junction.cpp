@@ -65,7 +65,7 @@ class Ladder {
 void try_tube(Ladder& ladder, const FieldJunction& from_field, std::string& reason) {
   std::string fault;
   const auto quads = from_field.tube(ladder.best()->patch, fault);
-  if (quads) fault = ladder.offer_quads(*quads);
+  if (quads) fault = ladder.offer_quads(*quads);  // passed its gates, whatever went before
   if (!fault.empty()) reason = "no tube of quads: " + fault;
 }
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "surface/tube_chart.h"
+#include "surface/raise_worst.h"
 #include "surface/tube_mesh.h"
 
 namespace skinforge {
 namespace {
 
 constexpr int kSamples = 64;  // ours: of the length along the tube
-constexpr int kMoreRows = 3;  // ours: tried when the counts do not meet in the rows wanted
 
 // Sum of the corners at a border vertex: pi where the tube goes straight on.
 std::vector<double> border_angles(const TrianglePatch& domain, const IndexLoop& loop) {
@@ -42,25 +41,23 @@ struct Rows {
   std::vector<double> u, share;  // #rows + 1; share of the length
 };
 
-double wanted_rows(const std::vector<double>& lengths, double depth_a, double depth_b,
-                   std::vector<double>* rows_until = nullptr) {
-  double rows = 0;
-  if (rows_until) rows_until->push_back(0);
+// Rows from A to each sample of the length.
+std::vector<double> rows_until(const std::vector<double>& lengths, double depth_a, double depth_b) {
+  std::vector<double> rows = {0};
   for (std::size_t k = 0; k + 1 < lengths.size(); ++k) {
     const double middle = 0.5 * (lengths[k] + lengths[k + 1]) / lengths.back();
-    rows += (lengths[k + 1] - lengths[k]) / (depth_a * std::pow(depth_b / depth_a, middle));
-    if (rows_until) rows_until->push_back(rows);
+    rows.push_back(rows.back() +
+                   (lengths[k + 1] - lengths[k]) / (depth_a * std::pow(depth_b / depth_a, middle)));
   }
   return rows;
 }
 
 Rows lay_rows(const std::vector<double>& lengths, double depth_a, double depth_b, int count) {
-  std::vector<double> until;
-  const double total = wanted_rows(lengths, depth_a, depth_b, &until);
+  const std::vector<double> until = rows_until(lengths, depth_a, depth_b);
   Rows rows;
   std::size_t k = 0;
   for (int r = 0; r <= count; ++r) {
-    const double wanted = total * r / count;
+    const double wanted = until.back() * r / count;
     while (k + 2 < until.size() && until[k + 1] < wanted) ++k;
     const double step = until[k + 1] - until[k];
     const double part = step > 0 ? std::clamp((wanted - until[k]) / step, 0.0, 1.0) : 0;
@@ -97,32 +94,38 @@ int least_rows(std::size_t n, std::size_t m) {
 
 }  // namespace
 
-std::optional<QuadPatch> quad_tube(const TrianglePatch& domain, const std::vector<JunctionLoop>& loops,
-                                   const Projection& project, std::string& fault) {
+std::optional<QuadTube> QuadTube::make(const TrianglePatch& domain, const std::vector<JunctionLoop>& loops,
+                                       std::string& fault) {
   const Borders borders = lay_borders(loops);
   const IndexLoop a = borders.loops[0], b(borders.loops[1].rbegin(), borders.loops[1].rend());
-  const auto chart = TubeChart::make(domain, a, b);
+  auto chart = TubeChart::make(domain, a, b);
   if (!chart) {
     fault = "the blended surface has no coordinates of a tube";
     return std::nullopt;
   }
-  const TubeSide side_a{chart->theta_a(), border_angles(domain, a)};
-  const TubeSide side_b{chart->theta_b(), border_angles(domain, b)};
-  const std::vector<double> lengths = chart->lengths(kSamples);
-  const double depth_a = row_depth(loops[0]), depth_b = row_depth(loops[1]);
-  const int wanted = std::max(least_rows(a.size(), b.size()),
-                              static_cast<int>(std::lround(wanted_rows(lengths, depth_a, depth_b))));
-  for (int count = wanted; count <= wanted + kMoreRows; ++count) {
-    const auto table = solve_tube(side_a, side_b, count);
-    if (!table) continue;
-    const Rows rows = lay_rows(lengths, depth_a, depth_b, count);
-    const TubeMesh mesh = mesh_of(*table, side_a, side_b, rows.share);
-    QuadPatch patch = lifted(mesh, *chart, rows, domain, b);
-    polish(patch, project);
-    return patch;
-  }
-  fault = "the counts of its borders do not meet in the rows between them";
-  return std::nullopt;
+  QuadTube tube(domain, *std::move(chart));
+  tube.b_ = b;
+  tube.side_a_ = {tube.chart_.theta_a(), border_angles(domain, a)};
+  tube.side_b_ = {tube.chart_.theta_b(), border_angles(domain, b)};
+  tube.depth_a_ = row_depth(loops[0]);
+  tube.depth_b_ = row_depth(loops[1]);
+  tube.lengths_ = tube.chart_.lengths(kSamples);
+  tube.wanted_rows_ =
+      std::max(least_rows(a.size(), b.size()),
+               static_cast<int>(std::lround(rows_until(tube.lengths_, tube.depth_a_, tube.depth_b_).back())));
+  return tube;
+}
+
+std::optional<QuadPatch> QuadTube::with(int rows, const TubeOptions& options,
+                                        const Projection& project) const {
+  if (rows < 2) return std::nullopt;
+  const auto table = solve_tube(side_a_, side_b_, rows, options);
+  if (!table) return std::nullopt;
+  const Rows laid = lay_rows(lengths_, depth_a_, depth_b_, rows);
+  QuadPatch patch = lifted(mesh_of(*table, side_a_, side_b_, laid.share), chart_, laid, *domain_, b_);
+  polish(patch, project);
+  raise_worst(patch, project);
+  return patch;
 }
 
 }  // namespace skinforge

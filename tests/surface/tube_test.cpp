@@ -164,8 +164,10 @@ TEST(TubeChart, ADiscIsNoTube) {
 TEST(QuadTube, EqualCountsGiveAGrid) {
   const Wall wall(24, 24, 3);
   std::string fault;
-  const auto tube = quad_tube(wall.domain, wall.loops, Wall::onto, fault);
-  ASSERT_TRUE(tube) << fault;
+  const auto tubes = QuadTube::make(wall.domain, wall.loops, fault);
+  ASSERT_TRUE(tubes) << fault;
+  const auto tube = tubes->with(tubes->wanted_rows(), {}, Wall::onto);
+  ASSERT_TRUE(tube);
   EXPECT_EQ(tube->quads.size(), 24u * 11);  // 3 / (2 pi / 24) is 11.5 arcs, and 11.49 edges
   EXPECT_TRUE(tube->triangles.empty());
   EXPECT_GT(least_scaled_jacobian(*tube), 0.9);
@@ -178,8 +180,10 @@ TEST_P(TubeQuality, OnACylinder) {
   const auto [n, m] = GetParam();
   const Wall wall(n, m, 4);
   std::string fault;
-  const auto tube = quad_tube(wall.domain, wall.loops, Wall::onto, fault);
-  ASSERT_TRUE(tube) << fault;
+  const auto tubes = QuadTube::make(wall.domain, wall.loops, fault);
+  ASSERT_TRUE(tubes) << fault;
+  const auto tube = tubes->with(tubes->wanted_rows(), {}, Wall::onto);
+  ASSERT_TRUE(tube);
   EXPECT_EQ(tube->triangles.size(), static_cast<std::size_t>((n + m) % 2));
   EXPECT_GE(least_scaled_jacobian(*tube), 0.2);
   const TrianglePatch halves = halved(*tube);
