@@ -7,17 +7,13 @@
 #include <limits>
 #include <set>
 
+#include "surface/best_tube.h"
 #include "surface/borders.h"
-#include "surface/quad_gate.h"
 #include "surface/remesh.h"
 #include "surface/trim.h"
-#include "surface/tube.h"
 
 namespace skinforge {
 namespace {
-
-constexpr double kGoodQuality = 0.5;  // junction.md c: the target of the least scaled Jacobian
-constexpr double kDomainScale = 0.5;  // ours: of the edges of the patch that carries a tube's coordinates
 
 double mean_border_edge(const std::vector<JunctionLoop>& loops) {
   double length = 0, edges = 0;
@@ -169,27 +165,10 @@ TrianglePatch FieldJunction::remeshed(const TrianglePatch& zipped, double length
   return remesh(zipped, onto_field(field_.distance), {.length_scale = length_scale});
 }
 
-std::optional<QuadPatch> FieldJunction::tube(const TrianglePatch& patch, std::string& fault) const {
-  const TrianglePatch domain = remeshed(patch, kDomainScale);
-  const auto tube = QuadTube::make(domain, loops_, fault);
-  if (!tube) return std::nullopt;
-  std::optional<QuadPatch> best;
-  double best_quality = 0;
-  const Projection project = onto_field(field_.distance);
-  for (const double stack_cost : {10.0, 10.0 / 3, 30.0})  // junction.md b.2, step 6: the next-best tables
-    for (const int more : {0, 1, -1, 2}) {
-      auto quads = tube->with(tube->wanted_rows() + more, {.stack_cost = stack_cost}, project);
-      if (!quads) continue;
-      const std::string trouble = fault_of(*quads, field_.distance);
-      if (fault.empty()) fault = trouble;
-      const double quality = least_scaled_jacobian(*quads);
-      if (!trouble.empty() || quality <= best_quality) continue;
-      best = std::move(quads);
-      best_quality = quality;
-      if (quality >= kGoodQuality) return best;
-    }
-  if (!best && fault.empty()) fault = "the counts of its borders do not meet in the rows between them";
-  return best;
+std::optional<QuadPatch> FieldJunction::tube(const PatchPart& part, std::string& fault) const {
+  std::vector<JunctionLoop> loops;
+  for (const std::size_t l : part.loops) loops.push_back(loops_[l]);
+  return best_tube(part.patch, loops, field_.distance, onto_field(field_.distance), fault);
 }
 
 }  // namespace skinforge

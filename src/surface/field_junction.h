@@ -5,7 +5,7 @@
 
 #include "surface/junction_loop.h"
 #include "surface/kept_surface.h"
-#include "surface/quad_patch.h"
+#include "surface/patch_parts.h"
 #include "surface/site_field.h"
 
 namespace skinforge {
@@ -21,9 +21,8 @@ class FieldJunction {
   /// which.
   std::optional<TrianglePatch> zipped(double clearance, std::string& fault) const;
 
-  /// A tube of quads in the place of a patch that joins two borders (`quad_tube`). None, with the reason in
-  /// `fault`, when it does not come about or does not pass the gates of its rung.
-  std::optional<QuadPatch> tube(const TrianglePatch& patch, std::string& fault) const;
+  /// A tube of quads in the place of a part that joins two borders (`best_tube`).
+  std::optional<QuadPatch> tube(const PatchPart& part, std::string& fault) const;
 
   /// A zipped patch remeshed on the isosurface. `length_scale`: of the borders' edge lengths.
   TrianglePatch remeshed(const TrianglePatch& zipped, double length_scale) const;

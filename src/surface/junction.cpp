@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "surface/bridge.h"
 #include "surface/field_junction.h"
@@ -41,12 +42,12 @@ class Ladder {
     if (!faults_of(patch, loops_, kept_).any()) best_ = Attempt{std::move(patch), 0, rung, {}};
   }
 
-  // Takes quads if they have no fault; otherwise says what is wrong.
-  std::string offer_quads(const QuadPatch& quads) {
+  // Takes quads in the place of triangles unless they bring faults; then says which.
+  std::string offer_quads(const QuadPatch& quads, JunctionRung rung) {
     const TrianglePatch patch = halved(quads);
     const JunctionFaults faults = faults_of(patch, loops_, kept_);
-    if (faults.any()) return describe(faults);
-    best_ = Attempt{patch, quads.quads.size(), JunctionRung::Tube, faults};
+    if (faults > best_->faults) return describe(faults);
+    best_ = Attempt{patch, quads.quads.size(), rung, faults};
     return {};
   }
 
@@ -61,12 +62,37 @@ class Ladder {
   std::optional<Attempt> best_;
 };
 
-// In place of triangles between two borders, if it is sound.
-void try_tube(Ladder& ladder, const FieldJunction& from_field, std::string& reason) {
-  std::string fault;
-  const auto quads = from_field.tube(ladder.best()->patch, fault);
-  if (quads) fault = ladder.offer_quads(*quads);  // passed its gates, whatever went before
-  if (!fault.empty()) reason = "no tube of quads: " + fault;
+// The parts of a patch, those that were made of quads as such.
+QuadPatch together(const TrianglePatch& patch, const std::vector<PatchPart>& parts,
+                   const std::vector<std::optional<QuadPatch>>& quads) {
+  QuadPatch whole{
+      {patch.positions.begin(), patch.positions.begin() + static_cast<std::ptrdiff_t>(patch.fixed)},
+      {},
+      {},
+      patch.fixed};
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    add_part(whole, parts[p], quads[p] ? *quads[p] : triangles_of(parts[p]));
+  return whole;
+}
+
+// Tubes of quads in the place of the parts that join two borders, one after the other, where they are sound.
+void try_tubes(Ladder& ladder, const FieldJunction& from_field, const std::vector<JunctionLoop>& loops,
+               std::string& reason) {
+  const TrianglePatch patch = ladder.best()->patch;
+  const std::vector<PatchPart> parts = split_parts(patch, loops);
+  std::vector<std::optional<QuadPatch>> quads(parts.size());
+  std::size_t made = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    std::string fault = "it joins " + std::to_string(parts[p].loops.size()) + " borders";
+    if (parts[p].loops.size() == 2) fault.clear(), quads[p] = from_field.tube(parts[p], fault);
+    if (quads[p]) {
+      const bool is_last = ++made == parts.size();
+      fault = ladder.offer_quads(together(patch, parts, quads),
+                                 is_last ? JunctionRung::Tube : JunctionRung::Field);
+      if (!fault.empty()) quads[p].reset(), --made;
+    }
+    if (!fault.empty() && reason.empty()) reason = "no tube of quads: " + fault;
+  }
 }
 
 // Wide clearance leaves the zip room to turn; a narrow one keeps rings apart where borders are close. Where
@@ -87,7 +113,7 @@ void try_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, const Sit
       if (!ladder.is_done())
         ladder.offer_if_sound(from_field.remeshed(patch, length_scale), JunctionRung::Field);
   if (!ladder.is_empty()) reason.clear();
-  if (!ladder.is_empty() && loops.size() == 2) try_tube(ladder, from_field, reason);
+  if (!ladder.is_empty()) try_tubes(ladder, from_field, loops, reason);
 }
 
 void try_without_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, JunctionRung rung) {
