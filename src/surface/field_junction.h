@@ -21,7 +21,7 @@ class FieldJunction {
   /// which.
   std::optional<TrianglePatch> zipped(double clearance, std::string& fault) const;
 
-  /// A tube of quads in the place of a part that joins two borders (`best_tube`).
+  /// A tube of quads in the place of a part (`best_tube`).
   std::optional<QuadPatch> tube(const PatchPart& part, std::string& fault) const;
 
   /// A zipped patch remeshed on the isosurface. `length_scale`: of the borders' edge lengths.

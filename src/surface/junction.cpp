@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string>
 
 #include "surface/bridge.h"
 #include "surface/field_junction.h"
@@ -75,7 +74,7 @@ QuadPatch together(const TrianglePatch& patch, const std::vector<PatchPart>& par
   return whole;
 }
 
-// Tubes of quads in the place of the parts that join two borders, one after the other, where they are sound.
+// Tubes of quads in the place of the parts, one after the other, where they are sound.
 void try_tubes(Ladder& ladder, const FieldJunction& from_field, const std::vector<JunctionLoop>& loops,
                std::string& reason) {
   const TrianglePatch patch = ladder.best()->patch;
@@ -83,8 +82,8 @@ void try_tubes(Ladder& ladder, const FieldJunction& from_field, const std::vecto
   std::vector<std::optional<QuadPatch>> quads(parts.size());
   std::size_t made = 0;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    std::string fault = "it joins " + std::to_string(parts[p].loops.size()) + " borders";
-    if (parts[p].loops.size() == 2) fault.clear(), quads[p] = from_field.tube(parts[p], fault);
+    std::string fault;
+    quads[p] = from_field.tube(parts[p], fault);
     if (quads[p]) {
       const bool is_last = ++made == parts.size();
       fault = ladder.offer_quads(together(patch, parts, quads),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "surface/raise_worst.h"
 #include "surface/tube_mesh.h"
@@ -11,8 +12,8 @@ namespace {
 
 constexpr int kSamples = 64;  // ours: of the length along the tube
 
-// Sum of the corners at a border vertex: pi where the tube goes straight on.
-std::vector<double> border_angles(const TrianglePatch& domain, const IndexLoop& loop) {
+// Sum of the corners at each vertex of the domain.
+std::vector<double> corner_sums(const TrianglePatch& domain) {
   std::vector<double> sum(domain.positions.size(), 0);
   for (const Triangle& t : domain.triangles)
     for (int k = 0; k < 3; ++k) {
@@ -20,20 +21,21 @@ std::vector<double> border_angles(const TrianglePatch& domain, const IndexLoop& 
                  q = domain.positions[t[(k + 2) % 3]] - domain.positions[t[k]];
       sum[t[k]] += std::atan2(p.cross(q).norm(), p.dot(q));
     }
-  std::vector<double> angles;
-  for (const std::int32_t v : loop) angles.push_back(sum[v]);
-  return angles;
+  return sum;
 }
 
-// Depth of the first preserved row, so rows go on at the same pace; near the border's own edges where that
-// row is much deeper or flatter than they are.
-double row_depth(const JunctionLoop& loop) {
-  const double edge = loop_length(loop.positions) / static_cast<double>(loop.positions.size());
-  double sum = 0;
-  int count = 0;
-  for (std::size_t v = 0; v < loop.positions.size(); ++v)
-    for (const Vec3& p : loop.inward[v]) sum += (p - loop.positions[v]).norm(), ++count;
-  return count == 0 ? edge : std::clamp(sum / count, edge / 2, 2 * edge);
+// Theta and angle at the points of a border; between vertices of the domain it runs straight.
+TubeSide side_of(const TubeBorder& border, const std::vector<double>& theta,
+                 const std::vector<double>& angles) {
+  TubeSide side;
+  for (const TubeBorderPoint& point : border.points) {
+    const auto k = static_cast<std::size_t>(point.place);
+    const double part = point.place - static_cast<double>(k);
+    const double next = k + 1 < theta.size() ? theta[k + 1] : theta[0] + 1;
+    side.theta.push_back(theta[k] + part * (next - theta[k]));
+    side.angle.push_back(point.place == static_cast<double>(k) ? angles[border.loop[k]] : std::numbers::pi);
+  }
+  return side;
 }
 
 // Values of u at which the rows lie: sizes go from those of A to those of B.
@@ -69,16 +71,18 @@ Rows lay_rows(const std::vector<double>& lengths, double depth_a, double depth_b
   return rows;
 }
 
-// The tube's vertices on the domain. Border B runs the other way there.
-QuadPatch lifted(const TubeMesh& mesh, const TubeChart& chart, const Rows& rows, const TrianglePatch& domain,
-                 const IndexLoop& b) {
-  QuadPatch patch{domain.positions, mesh.quads, mesh.triangles, domain.fixed};
+// The tube's vertices on the domain.
+QuadPatch lifted(const TubeMesh& mesh, const TubeChart& chart, const Rows& rows, const TubeDomain& domain) {
+  const std::size_t borders = domain.a.points.size() + domain.b.points.size();
+  QuadPatch patch{domain.patch.positions, mesh.quads, mesh.triangles, domain.fixed};
   patch.positions.resize(domain.fixed);
-  for (std::size_t v = domain.fixed; v < mesh.row.size(); ++v)
+  patch.positions.insert(patch.positions.end(), domain.seams.begin(), domain.seams.end());
+  const auto first = static_cast<std::int32_t>(patch.positions.size() - borders);
+  for (std::size_t v = borders; v < mesh.row.size(); ++v)
     patch.positions.push_back(chart.at(rows.u[static_cast<std::size_t>(mesh.row[v])], mesh.theta[v]));
-  const auto first_b = static_cast<std::int32_t>(domain.fixed - b.size());
   const auto rename = [&](std::int32_t& v) {
-    if (v >= first_b && v < static_cast<std::int32_t>(domain.fixed)) v = b[v - first_b];
+    const auto k = static_cast<std::size_t>(v), n = domain.a.points.size();
+    v = k < n ? domain.a.points[k].vertex : k < borders ? domain.b.points[k - n].vertex : v + first;
   };
   for (Quad& q : patch.quads) std::for_each(q.begin(), q.end(), rename);
   for (Triangle& t : patch.triangles) std::for_each(t.begin(), t.end(), rename);
@@ -94,25 +98,20 @@ int least_rows(std::size_t n, std::size_t m) {
 
 }  // namespace
 
-std::optional<QuadTube> QuadTube::make(const TrianglePatch& domain, const std::vector<JunctionLoop>& loops,
-                                       std::string& fault) {
-  const Borders borders = lay_borders(loops);
-  const IndexLoop a = borders.loops[0], b(borders.loops[1].rbegin(), borders.loops[1].rend());
-  auto chart = TubeChart::make(domain, a, b);
+std::optional<QuadTube> QuadTube::make(const TubeDomain& domain, std::string& fault) {
+  auto chart = TubeChart::make(domain.patch, domain.a.loop, domain.b.loop);
   if (!chart) {
     fault = "the blended surface has no coordinates of a tube";
     return std::nullopt;
   }
   QuadTube tube(domain, *std::move(chart));
-  tube.b_ = b;
-  tube.side_a_ = {tube.chart_.theta_a(), border_angles(domain, a)};
-  tube.side_b_ = {tube.chart_.theta_b(), border_angles(domain, b)};
-  tube.depth_a_ = row_depth(loops[0]);
-  tube.depth_b_ = row_depth(loops[1]);
+  const std::vector<double> angles = corner_sums(domain.patch);
+  tube.side_a_ = side_of(domain.a, tube.chart_.theta_a(), angles);
+  tube.side_b_ = side_of(domain.b, tube.chart_.theta_b(), angles);
   tube.lengths_ = tube.chart_.lengths(kSamples);
-  tube.wanted_rows_ =
-      std::max(least_rows(a.size(), b.size()),
-               static_cast<int>(std::lround(rows_until(tube.lengths_, tube.depth_a_, tube.depth_b_).back())));
+  const double rows = rows_until(tube.lengths_, domain.a.depth, domain.b.depth).back();
+  tube.wanted_rows_ = std::max(least_rows(domain.a.points.size(), domain.b.points.size()),
+                               static_cast<int>(std::lround(rows)));
   return tube;
 }
 
@@ -121,8 +120,8 @@ std::optional<QuadPatch> QuadTube::with(int rows, const TubeOptions& options,
   if (rows < 2) return std::nullopt;
   const auto table = solve_tube(side_a_, side_b_, rows, options);
   if (!table) return std::nullopt;
-  const Rows laid = lay_rows(lengths_, depth_a_, depth_b_, rows);
-  QuadPatch patch = lifted(mesh_of(*table, side_a_, side_b_, laid.share), chart_, laid, *domain_, b_);
+  const Rows laid = lay_rows(lengths_, domain_->a.depth, domain_->b.depth, rows);
+  QuadPatch patch = lifted(mesh_of(*table, side_a_, side_b_, laid.share), chart_, laid, *domain_);
   polish(patch, project);
   raise_worst(patch, project);
   return patch;

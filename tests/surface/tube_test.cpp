@@ -164,7 +164,9 @@ TEST(TubeChart, ADiscIsNoTube) {
 TEST(QuadTube, EqualCountsGiveAGrid) {
   const Wall wall(24, 24, 3);
   std::string fault;
-  const auto tubes = QuadTube::make(wall.domain, wall.loops, fault);
+  const std::vector<TubeDomain> domains = tube_domains(wall.domain, wall.loops);
+  ASSERT_EQ(domains.size(), 1u);
+  const auto tubes = QuadTube::make(domains[0], fault);
   ASSERT_TRUE(tubes) << fault;
   const auto tube = tubes->with(tubes->wanted_rows(), {}, Wall::onto);
   ASSERT_TRUE(tube);
@@ -180,7 +182,9 @@ TEST_P(TubeQuality, OnACylinder) {
   const auto [n, m] = GetParam();
   const Wall wall(n, m, 4);
   std::string fault;
-  const auto tubes = QuadTube::make(wall.domain, wall.loops, fault);
+  const std::vector<TubeDomain> domains = tube_domains(wall.domain, wall.loops);
+  ASSERT_EQ(domains.size(), 1u);
+  const auto tubes = QuadTube::make(domains[0], fault);
   ASSERT_TRUE(tubes) << fault;
   const auto tube = tubes->with(tubes->wanted_rows(), {}, Wall::onto);
   ASSERT_TRUE(tube);

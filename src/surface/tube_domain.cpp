@@ -1,0 +1,278 @@
+#include "surface/tube_domain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <queue>
+#include <set>
+
+namespace skinforge {
+namespace {
+
+using Path = std::vector<std::int32_t>;
+
+// Depth of the first preserved row, so rows go on at the same pace; near the border's own edges where that
+// row is much deeper or flatter than they are.
+double row_depth(const JunctionLoop& loop) {
+  const double edge = loop_length(loop.positions) / static_cast<double>(loop.positions.size());
+  double sum = 0;
+  int count = 0;
+  for (std::size_t v = 0; v < loop.positions.size(); ++v)
+    for (const Vec3& p : loop.inward[v]) sum += (p - loop.positions[v]).norm(), ++count;
+  return count == 0 ? edge : std::clamp(sum / count, edge / 2, 2 * edge);
+}
+
+double length_of(const TrianglePatch& patch, const Path& path) {
+  double length = 0;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k)
+    length += (patch.positions[path[k]] - patch.positions[path[k + 1]]).norm();
+  return length;
+}
+
+// Loops of a patch that become one border, joined by seams.
+class Joining {
+ public:
+  Joining(const TrianglePatch& patch, const std::vector<IndexLoop>& loops)
+      : patch_(patch), loop_of_vertex_(patch.positions.size(), -1), blocked_(patch.positions.size(), 0) {
+    for (std::size_t l = 0; l < loops.size(); ++l)
+      for (const std::int32_t v : loops[l]) loop_of_vertex_[v] = static_cast<std::int32_t>(l);
+    group_.resize(loops.size());
+    std::iota(group_.begin(), group_.end(), 0);
+    std::map<std::pair<std::int32_t, std::int32_t>, double> edges;
+    for (const Triangle& t : patch.triangles)
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t a = t[k], b = t[(k + 1) % 3];
+        edges[std::minmax(a, b)] = (patch.positions[a] - patch.positions[b]).norm();
+      }
+    neighbours_.resize(patch.positions.size());
+    for (const auto& [edge, length] : edges) {
+      neighbours_[edge.first].push_back({edge.second, length});
+      neighbours_[edge.second].push_back({edge.first, length});
+    }
+  }
+
+  // Shortest seams until all loops but `alone` are one; none when seams would touch each other or a border.
+  std::optional<std::vector<Path>> join_all_but(std::size_t alone) {
+    std::vector<Path> seams;
+    for (std::size_t joined = 2; joined < group_.size(); ++joined) {
+      const Path seam = shortest_seam(alone);
+      if (seam.empty()) return std::nullopt;
+      for (const std::int32_t v : seam) blocked_[v] = 1;
+      const std::int32_t from = group_[loop_of_vertex_[seam.front()]],
+                         to = group_[loop_of_vertex_[seam.back()]];
+      for (std::int32_t& g : group_)
+        if (g == to) g = from;
+      seams.push_back(seam);
+    }
+    return seams;
+  }
+
+ private:
+  Path shortest_seam(std::size_t alone) const {
+    Path best;
+    double least = std::numeric_limits<double>::infinity();
+    std::set<std::int32_t> groups(group_.begin(), group_.end());
+    for (const std::int32_t g : groups) {
+      if (g == group_[alone]) continue;
+      const Path path = shortest_from(g, alone);
+      if (!path.empty() && length_of(patch_, path) < (1 - 1e-6) * least)
+        best = path, least = length_of(patch_, path);
+    }
+    return best;
+  }
+
+  // From the border vertices of a group to the nearest of another group, through free vertices (Dijkstra).
+  Path shortest_from(std::int32_t group, std::size_t alone) const {
+    std::vector<double> distance(patch_.positions.size(), std::numeric_limits<double>::infinity());
+    std::vector<std::int32_t> before(patch_.positions.size(), -1);
+    using Entry = std::pair<double, std::int32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    for (std::size_t v = 0; v < loop_of_vertex_.size(); ++v)
+      if (loop_of_vertex_[v] >= 0 && group_[loop_of_vertex_[v]] == group && !blocked_[v])
+        distance[v] = 0, open.push({0, static_cast<std::int32_t>(v)});
+    while (!open.empty()) {
+      const auto [d, v] = open.top();
+      open.pop();
+      if (d > distance[v]) continue;
+      const std::int32_t loop = loop_of_vertex_[v];
+      if (loop >= 0 && group_[loop] != group) {
+        Path path;
+        for (std::int32_t at = v; at >= 0; at = before[at]) path.push_back(at);
+        std::reverse(path.begin(), path.end());
+        return path;
+      }
+      for (const auto& [next, length] : neighbours_[v]) {
+        const std::int32_t other = loop_of_vertex_[next];
+        const bool is_open = other < 0 || (group_[other] != group && group_[other] != group_[alone]);
+        if (!is_open || blocked_[next] || d + length >= distance[next]) continue;
+        distance[next] = d + length;
+        before[next] = v;
+        open.push({distance[next], next});
+      }
+    }
+    return {};
+  }
+
+  const TrianglePatch& patch_;
+  std::vector<std::int32_t> loop_of_vertex_, group_;
+  std::vector<char> blocked_;  // on a seam
+  std::vector<std::vector<std::pair<std::int32_t, double>>> neighbours_;
+};
+
+// Cuts a patch open along a path from border to border: what lies to its right gets vertices of its own, at
+// the same places. `original`: per vertex, what it was before any cut; grows.
+void cut_open(TrianglePatch& patch, const Path& path, std::vector<std::int32_t>& original) {
+  std::set<std::pair<std::int32_t, std::int32_t>> along;  // left half edges of the path
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) along.insert({path[k], path[k + 1]});
+  std::vector<std::pair<std::size_t, std::int32_t>> renamed;  // corner (3 t + k) to a new vertex
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::int32_t v = path[i];
+    std::map<std::int32_t, std::size_t> by_first, by_second;  // triangles around v by their other corners
+    for (std::size_t t = 0; t < patch.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (patch.triangles[t][k] == v) {
+          by_first[patch.triangles[t][(k + 1) % 3]] = 3 * t + k;
+          by_second[patch.triangles[t][(k + 2) % 3]] = 3 * t + k;
+        }
+    const auto copy = static_cast<std::int32_t>(patch.positions.size());
+    patch.positions.push_back(patch.positions[v]);
+    original.push_back(original[v]);
+    // Right of the path, turning clockwise: from the edge to the next vertex, or from the one to the last.
+    const bool has_next = i + 1 < path.size();
+    const std::int32_t stop = has_next ? (i > 0 ? path[i - 1] : -1) : -1;
+    if (has_next) {
+      for (std::int32_t edge = path[i + 1]; by_second.contains(edge) && edge != stop;) {
+        const std::size_t corner = by_second.at(edge);
+        renamed.push_back({corner, copy});
+        edge = patch.triangles[corner / 3][(corner % 3 + 1) % 3];
+      }
+    } else {
+      for (std::int32_t edge = path[i - 1]; by_first.contains(edge);) {
+        const std::size_t corner = by_first.at(edge);
+        renamed.push_back({corner, copy});
+        edge = patch.triangles[corner / 3][(corner % 3 + 2) % 3];
+      }
+    }
+  }
+  for (const auto& [corner, vertex] : renamed) patch.triangles[corner / 3][corner % 3] = vertex;
+}
+
+// Evenly spaced places along a run of boundary vertices, ends left out.
+std::vector<double> spaced(const TrianglePatch& patch, const IndexLoop& loop, std::size_t begin,
+                           std::size_t edges, int pieces) {
+  std::vector<double> until = {0};
+  for (std::size_t k = 0; k < edges; ++k)
+    until.push_back(until.back() + (patch.positions[loop[(begin + k) % loop.size()]] -
+                                    patch.positions[loop[(begin + k + 1) % loop.size()]])
+                                       .norm());
+  std::vector<double> places;
+  std::size_t k = 0;
+  for (int p = 1; p < pieces; ++p) {
+    const double wanted = until.back() * p / pieces;
+    while (k + 2 < until.size() && until[k + 1] < wanted) ++k;
+    places.push_back(static_cast<double>(begin + k) + (wanted - until[k]) / (until[k + 1] - until[k]));
+  }
+  return places;
+}
+
+// The seams of one domain as vertices of the result.
+struct Seam {
+  Path path;
+  int pieces = 1;
+  std::int32_t first = 0;  // name of its first inner vertex
+};
+
+// The points of one boundary loop of the cut patch.
+TubeBorder border_of(const TubeDomain& domain, const IndexLoop& loop,
+                     const std::vector<std::int32_t>& original, const std::vector<Seam>& seams) {
+  TubeBorder border{loop, {}, 0};
+  const auto fixed = static_cast<std::int32_t>(domain.fixed);
+  const auto was = [&](std::size_t k) { return original[loop[k % loop.size()]]; };
+  std::size_t start = 0;
+  while (was(start) >= fixed) ++start;  // a border has its own vertices, seams run between them
+  std::rotate(border.loop.begin(), border.loop.begin() + static_cast<std::ptrdiff_t>(start),
+              border.loop.end());
+  const IndexLoop& l = border.loop;
+  for (std::size_t k = 0; k < l.size();) {
+    const std::int32_t v = original[l[k]];
+    border.points.push_back({static_cast<double>(k), v});
+    std::size_t edges = 1;
+    while (original[l[(k + edges) % l.size()]] >= fixed) ++edges;
+    const std::int32_t next = original[l[(k + edges) % l.size()]];
+    for (const Seam& seam : seams) {
+      const bool forwards = seam.path.front() == v && seam.path.back() == next;
+      const bool backwards = seam.path.back() == v && seam.path.front() == next;
+      if ((!forwards && !backwards) || seam.path.size() != edges + 1) continue;
+      const auto places = spaced(domain.patch, l, k, edges, seam.pieces);
+      for (std::size_t p = 0; p < places.size(); ++p)
+        border.points.push_back(
+            {places[p], seam.first + static_cast<std::int32_t>(forwards ? p : places.size() - 1 - p)});
+    }
+    k += edges;
+  }
+  return border;
+}
+
+void turn_round(TubeBorder& border) {
+  std::reverse(border.loop.begin(), border.loop.end());
+  const double last = static_cast<double>(border.loop.size() - 1);
+  for (TubeBorderPoint& point : border.points)
+    point.place = std::fmod(last - point.place + last + 1, last + 1);
+  std::sort(border.points.begin(), border.points.end(),
+            [](const TubeBorderPoint& p, const TubeBorderPoint& q) { return p.place < q.place; });
+}
+
+std::optional<TubeDomain> domain_against(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,
+                                         std::size_t alone) {
+  const std::vector<IndexLoop> borders = lay_borders(loops).loops;
+  const auto paths = Joining(patch, borders).join_all_but(alone);
+  if (!paths) return std::nullopt;
+  TubeDomain domain{patch, {}, {}, {}, patch.fixed};
+  std::vector<std::int32_t> original(patch.positions.size());
+  std::iota(original.begin(), original.end(), 0);
+  double edge = 0, depth = 0, edges = 0;
+  for (std::size_t l = 0; l < loops.size(); ++l) {
+    if (l == alone) continue;
+    const auto count = static_cast<double>(borders[l].size());
+    edge += loop_length(loops[l].positions);
+    depth += count * row_depth(loops[l]);
+    edges += count;
+  }
+  std::vector<Seam> seams;
+  for (const Path& path : *paths) {
+    const int pieces = std::max(1, static_cast<int>(std::lround(length_of(patch, path) * edges / edge)));
+    seams.push_back({path, pieces, static_cast<std::int32_t>(domain.fixed + domain.seams.size())});
+    const auto places = spaced(patch, path, 0, path.size() - 1, pieces);
+    for (const double place : places) {
+      const auto k = static_cast<std::size_t>(place);
+      const Vec3 &p = patch.positions[path[k]], &q = patch.positions[path[k + 1]];
+      domain.seams.emplace_back(p + (place - static_cast<double>(k)) * (q - p));
+    }
+    cut_open(domain.patch, path, original);
+  }
+  const auto boundary = boundary_loops(domain.patch.triangles);
+  if (boundary.size() != 2) return std::nullopt;
+  const bool first_alone =
+      std::find(boundary[0].begin(), boundary[0].end(), borders[alone][0]) != boundary[0].end();
+  domain.a = border_of(domain, boundary[first_alone ? 0 : 1], original, seams);
+  domain.b = border_of(domain, boundary[first_alone ? 1 : 0], original, seams);
+  domain.a.depth = row_depth(loops[alone]);
+  domain.b.depth = depth / edges;
+  turn_round(domain.b);
+  return domain;
+}
+
+}  // namespace
+
+std::vector<TubeDomain> tube_domains(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops) {
+  std::vector<TubeDomain> domains;
+  const std::size_t ways = loops.size() == 2 ? 1 : loops.size();
+  for (std::size_t alone = 0; loops.size() >= 2 && alone < ways; ++alone)
+    if (auto domain = domain_against(patch, loops, alone)) domains.push_back(*std::move(domain));
+  return domains;
+}
+
+}  // namespace skinforge

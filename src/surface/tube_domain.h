@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "surface/borders.h"
+
+namespace skinforge {
+
+/// A vertex of a tube's border: where it lies on the boundary of the domain, and its name in the result.
+struct TubeBorderPoint {
+  double place = 0;         ///< along `TubeBorder::loop`, in vertices
+  std::int32_t vertex = 0;  ///< in the result; twice on a border where a seam runs
+};
+
+/// One border of a tube, in the direction in which theta rises.
+struct TubeBorder {
+  IndexLoop loop;  ///< boundary of the domain
+  std::vector<TubeBorderPoint> points;
+  double depth = 0;  ///< of the preserved row before it, metres
+};
+
+/// A triangulated tube, and what its borders are made of. Where more than two borders are joined, seams turn
+/// several into one (junction.md b.2, N loops): the patch is cut open along them, and both sides of a cut get
+/// the same new vertices.
+struct TubeDomain {
+  TrianglePatch patch;
+  TubeBorder a, b;
+  std::vector<Vec3> seams;  ///< positions of the vertices on seams; named after the fixed ones
+  std::size_t fixed = 0;    ///< border vertices of the whole
+};
+
+/// Ways to see a patch between `loops` (its fixed vertices, loop after loop) as a tube: one way for two
+/// loops; for more, each loop against all others joined by the shortest seams. Without those whose seams
+/// would touch.
+std::vector<TubeDomain> tube_domains(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops);
+
+}  // namespace skinforge
