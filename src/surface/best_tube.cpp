@@ -1,6 +1,9 @@
 #include "surface/best_tube.h"
 
+#include <algorithm>
+
 #include "surface/quad_gate.h"
+#include "surface/remesh.h"
 #include "surface/tube.h"
 
 namespace skinforge {
@@ -27,24 +30,38 @@ struct Choice {
   }
 };
 
-void try_tables(const QuadTube& tube, const DistanceField& field, const Projection& project, Choice& choice) {
-  for (const double stack_cost : {10.0, 10.0 / 3, 30.0})  // junction.md b.2, step 6: the next-best tables
+// Tables for one tube: junction.md b.2, step 6. Seams leave more ways to go on, and one table each is enough.
+std::vector<TubeOptions> options_for(std::size_t borders) {
+  if (borders > 2) return {{}};
+  return {{}, {.stack_cost = 10.0 / 3}, {.stack_cost = 30}};
+}
+
+void try_tables(const QuadTube& tube, std::size_t borders, const DistanceField& field,
+                const WantedSurface& surface, Choice& choice) {
+  std::vector<std::pair<int, TubeTable>> tried;
+  for (const TubeOptions& options : options_for(borders))
     for (const int more : {0, 1, -1, 2}) {
+      const int rows = tube.wanted_rows() + more;
+      const auto table = tube.table(rows, options);
+      if (!table || std::find(tried.begin(), tried.end(), std::pair(rows, *table)) != tried.end()) continue;
+      choice.offer(tube.made(*table, rows, surface), field);
       if (choice.is_good()) return;
-      if (auto quads = tube.with(tube.wanted_rows() + more, {.stack_cost = stack_cost}, project))
-        choice.offer(*std::move(quads), field);
+      tried.emplace_back(rows, *table);
     }
 }
 
 }  // namespace
 
 std::optional<QuadPatch> best_tube(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,
-                                   const DistanceField& field, const Projection& project,
+                                   const DistanceField& field, const WantedSurface& surface,
                                    std::string& fault) {
   Choice choice;
-  const TrianglePatch fine = remesh(patch, project, {.length_scale = kDomainScale});
-  for (const TubeDomain& domain : tube_domains(fine, loops))
-    if (const auto tube = QuadTube::make(domain, choice.fault)) try_tables(*tube, field, project, choice);
+  const TrianglePatch fine = remesh(patch, surface.project, {.length_scale = kDomainScale});
+  for (const TubeDomain& domain : tube_domains(fine, loops)) {
+    if (const auto tube = QuadTube::make(domain, choice.fault))
+      try_tables(*tube, loops.size(), field, surface, choice);
+    if (choice.best) break;
+  }
   if (!choice.best) fault = choice.fault.empty() ? "the counts of its borders do not meet" : choice.fault;
   return choice.best;
 }

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "surface/remesh.h"
 #include "surface/triangle_patch.h"
+#include "surface/wanted_surface.h"
 
 namespace skinforge {
 

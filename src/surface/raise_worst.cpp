@@ -19,8 +19,8 @@ constexpr double kGain = 1.0 / 1024;  // ours: less is no gain, so equals do not
 
 class Search {
  public:
-  Search(QuadPatch& patch, const Projection& project)
-      : patch_(patch), project_(project), faces_(patch.positions.size()) {
+  Search(QuadPatch& patch, const WantedSurface& surface)
+      : patch_(patch), surface_(surface), faces_(patch.positions.size()) {
     for (std::size_t f = 0; f < face_count(); ++f)
       for (const std::int32_t v : face(f)) faces_[v].push_back(f);
   }
@@ -44,8 +44,13 @@ class Search {
   double quality(std::size_t f) const {
     std::array<Vec3, 4> corners;
     const auto vertices = face(f);
-    for (std::size_t k = 0; k < vertices.size(); ++k) corners[k] = patch_.positions[vertices[k]];
-    return scaled_jacobian(std::span(corners).first(vertices.size()));
+    Vec3 centre = Vec3::Zero();
+    for (std::size_t k = 0; k < vertices.size(); ++k) centre += corners[k] = patch_.positions[vertices[k]];
+    centre /= static_cast<double>(vertices.size());
+    const double jacobian = scaled_jacobian(std::span(corners).first(vertices.size()));
+    const Vec3 normal = vertices.size() == 4 ? (corners[2] - corners[0]).cross(corners[3] - corners[1])
+                                             : (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    return normal.dot(surface_.outward(centre)) < 0 ? std::min(jacobian, 0.0) - 1 : jacobian;
   }
 
   double quality_around(std::int32_t v) const {
@@ -94,7 +99,8 @@ class Search {
     Vec3 place = start;
     for (int d = 0; d < kDirections; ++d) {
       const double angle = 2 * std::numbers::pi * d / kDirections;
-      patch_.positions[v] = project_(start + step * length * (std::cos(angle) * x + std::sin(angle) * y));
+      patch_.positions[v] =
+          surface_.project(start + step * length * (std::cos(angle) * x + std::sin(angle) * y));
       const double found = quality_around(v);
       if (found > best + kGain) best = found, place = patch_.positions[v];
     }
@@ -102,14 +108,14 @@ class Search {
   }
 
   QuadPatch& patch_;
-  const Projection& project_;
+  const WantedSurface& surface_;
   std::vector<std::vector<std::size_t>> faces_;
 };
 
 }  // namespace
 
-void raise_worst(QuadPatch& patch, const Projection& project) {
-  Search(patch, project).run();
+void raise_worst(QuadPatch& patch, const WantedSurface& surface) {
+  Search(patch, surface).run();
 }
 
 }  // namespace skinforge

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <functional>
-
 #include "surface/triangle_patch.h"
+#include "surface/wanted_surface.h"
 
 namespace skinforge {
 
@@ -13,9 +12,6 @@ struct RemeshOptions {
   double length_scale = 1;  ///< of the target lengths inside: below 1 the patch is finer than its borders
   double relax = 0.6;       ///< share of the way to the mean of the neighbours, in the tangent plane
 };
-
-/// Moves a free vertex back onto the wanted surface; returns the new place.
-using Projection = std::function<Vec3(const Vec3&)>;
 
 /// Isotropic remeshing (Botsch and Kobbelt 2004: split, collapse, flip towards valence 6, tangential
 /// relaxation, project) of the inside of a patch. Fixed vertices and the edges between them that lie on the

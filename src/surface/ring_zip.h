@@ -1,15 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "surface/triangle_patch.h"
+#include "surface/wanted_surface.h"
 
 namespace skinforge {
-
-/// Direction away from the solid at a point; need not be unit.
-using OutwardDirection = std::function<Vec3(const Vec3&)>;
 
 /// Triangles that close the ring between two loops that run the same way: exactly #a + #c of them, each with
 /// one edge on one of the loops (Fuchs 1977, contour triangulation), of least total cost by dynamic

@@ -115,15 +115,16 @@ std::optional<QuadTube> QuadTube::make(const TubeDomain& domain, std::string& fa
   return tube;
 }
 
-std::optional<QuadPatch> QuadTube::with(int rows, const TubeOptions& options,
-                                        const Projection& project) const {
+std::optional<TubeTable> QuadTube::table(int rows, const TubeOptions& options) const {
   if (rows < 2) return std::nullopt;
-  const auto table = solve_tube(side_a_, side_b_, rows, options);
-  if (!table) return std::nullopt;
+  return solve_tube(side_a_, side_b_, rows, options);
+}
+
+QuadPatch QuadTube::made(const TubeTable& table, int rows, const WantedSurface& surface) const {
   const Rows laid = lay_rows(lengths_, domain_->a.depth, domain_->b.depth, rows);
-  QuadPatch patch = lifted(mesh_of(*table, side_a_, side_b_, laid.share), chart_, laid, *domain_);
-  polish(patch, project);
-  raise_worst(patch, project);
+  QuadPatch patch = lifted(mesh_of(table, side_a_, side_b_, laid.share), chart_, laid, *domain_);
+  polish(patch, surface.project);
+  raise_worst(patch, surface);
   return patch;
 }
 

@@ -20,9 +20,11 @@ class QuadTube {
   /// Rows that continue the pace of both borders and let their counts meet.
   int wanted_rows() const { return wanted_rows_; }
 
-  /// With that many rows; `project` brings a free vertex back onto the wanted surface. None when the counts
-  /// do not meet in them. Vertices: the fixed ones of the domain, those of its seams, the new ones.
-  std::optional<QuadPatch> with(int rows, const TubeOptions& options, const Projection& project) const;
+  /// Columns in that many rows; none when the counts do not meet in them.
+  std::optional<TubeTable> table(int rows, const TubeOptions& options) const;
+
+  /// The tube of a table. Vertices: the fixed ones of the domain, those of its seams, the new ones.
+  QuadPatch made(const TubeTable& table, int rows, const WantedSurface& surface) const;
 
  private:
   QuadTube(const TubeDomain& domain, TubeChart chart) : domain_(&domain), chart_(std::move(chart)) {}

@@ -25,6 +25,8 @@ struct TubeOp {
   TubeOpKind kind = TubeOpKind::Match;
   int depth = 0;   ///< diamonds of a stack; 1 for a triangle
   int middle = 0;  ///< border vertex in the middle of a stack, of its own side
+
+  bool operator==(const TubeOp&) const = default;
 };
 
 /// Columns of a tube, once around. They begin at vertex 0 of A and at vertex `start` of B.
@@ -32,6 +34,8 @@ struct TubeTable {
   std::size_t start = 0;
   std::vector<TubeOp> ops;
   double cost = 0;
+
+  bool operator==(const TubeTable& other) const { return start == other.start && ops == other.ops; }
 };
 
 struct TubeOptions {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "surface/remesh.h"
 #include "surface/ring_zip.h"
 #include "surface/shapes.h"
 #include "surface/tube_chart.h"
@@ -117,6 +118,10 @@ struct Wall {
     return {p.x() / radius, p.y(), p.z() / radius};
   }
 
+  static WantedSurface surface() {
+    return {onto, [](const Vec3& p) { return Vec3(p.x(), 0, p.z()); }};
+  }
+
   Wall(int n, int m, double height, double turn = 0.1) {
     const std::vector<Vec3> low = testing::ring(n);
     std::vector<Vec3> high = testing::ring(m, 1, height, turn), both = low;
@@ -168,12 +173,13 @@ TEST(QuadTube, EqualCountsGiveAGrid) {
   ASSERT_EQ(domains.size(), 1u);
   const auto tubes = QuadTube::make(domains[0], fault);
   ASSERT_TRUE(tubes) << fault;
-  const auto tube = tubes->with(tubes->wanted_rows(), {}, Wall::onto);
-  ASSERT_TRUE(tube);
-  EXPECT_EQ(tube->quads.size(), 24u * 11);  // 3 / (2 pi / 24) is 11.5 arcs, and 11.49 edges
-  EXPECT_TRUE(tube->triangles.empty());
-  EXPECT_GT(least_scaled_jacobian(*tube), 0.9);
-  EXPECT_EQ(tube->fixed, 48u);
+  const auto table = tubes->table(tubes->wanted_rows(), {});
+  ASSERT_TRUE(table);
+  const QuadPatch tube = tubes->made(*table, tubes->wanted_rows(), Wall::surface());
+  EXPECT_EQ(tube.quads.size(), 24u * 11);  // 3 / (2 pi / 24) is 11.5 arcs, and 11.49 edges
+  EXPECT_TRUE(tube.triangles.empty());
+  EXPECT_GT(least_scaled_jacobian(tube), 0.9);
+  EXPECT_EQ(tube.fixed, 48u);
 }
 
 class TubeQuality : public ::testing::TestWithParam<std::pair<int, int>> {};
@@ -186,15 +192,16 @@ TEST_P(TubeQuality, OnACylinder) {
   ASSERT_EQ(domains.size(), 1u);
   const auto tubes = QuadTube::make(domains[0], fault);
   ASSERT_TRUE(tubes) << fault;
-  const auto tube = tubes->with(tubes->wanted_rows(), {}, Wall::onto);
-  ASSERT_TRUE(tube);
-  EXPECT_EQ(tube->triangles.size(), static_cast<std::size_t>((n + m) % 2));
-  EXPECT_GE(least_scaled_jacobian(*tube), 0.2);
-  const TrianglePatch halves = halved(*tube);
+  const auto table = tubes->table(tubes->wanted_rows(), {});
+  ASSERT_TRUE(table);
+  const QuadPatch tube = tubes->made(*table, tubes->wanted_rows(), Wall::surface());
+  EXPECT_EQ(tube.triangles.size(), static_cast<std::size_t>((n + m) % 2));
+  EXPECT_GE(least_scaled_jacobian(tube), 0.2);
+  const TrianglePatch halves = halved(tube);
   const MeshTopology topology = testing::topology_of(halves);
   EXPECT_EQ(topology.euler, 0);
   EXPECT_EQ(topology.non_manifold_edges + topology.non_manifold_vertices + topology.degenerate_faces, 0u);
-  for (std::size_t v = 0; v < tube->fixed; ++v) EXPECT_EQ(tube->positions[v], wall.domain.positions[v]);
+  for (std::size_t v = 0; v < tube.fixed; ++v) EXPECT_EQ(tube.positions[v], wall.domain.positions[v]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Counts, TubeQuality,
