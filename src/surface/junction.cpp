@@ -112,7 +112,7 @@ void try_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, const Sit
       if (!ladder.is_done())
         ladder.offer_if_sound(from_field.remeshed(patch, length_scale), JunctionRung::Field);
   if (!ladder.is_empty()) reason.clear();
-  if (!ladder.is_empty()) try_tubes(ladder, from_field, loops, reason);
+  if (ladder.is_done()) try_tubes(ladder, from_field, loops, reason);  // what has faults is made anew
 }
 
 void try_without_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, JunctionRung rung) {
