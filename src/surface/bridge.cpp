@@ -13,18 +13,6 @@
 namespace skinforge {
 namespace {
 
-std::vector<Support> supports_of(const std::vector<JunctionLoop>& loops) {
-  std::vector<Support> supports;
-  std::int32_t fixed = 0;
-  for (const JunctionLoop& loop : loops) {
-    for (const auto& inward : loop.inward) {
-      for (const Vec3& p : inward) supports.push_back({fixed, p});
-      ++fixed;
-    }
-  }
-  return supports;
-}
-
 double distance_to(const std::vector<Vec3>& loop, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3& q : loop) least = std::min(least, (p - q).squaredNorm());

@@ -6,6 +6,18 @@
 
 namespace skinforge {
 
+std::vector<Support> supports_of(const std::vector<JunctionLoop>& loops) {
+  std::vector<Support> supports;
+  std::int32_t fixed = 0;
+  for (const JunctionLoop& loop : loops) {
+    for (const auto& inward : loop.inward) {
+      for (const Vec3& p : inward) supports.push_back({fixed, p});
+      ++fixed;
+    }
+  }
+  return supports;
+}
+
 TrianglePatch fair(const TrianglePatch& patch, const std::vector<Support>& supports) {
   const std::size_t count = patch.positions.size(), free_count = count - patch.fixed;
   if (free_count == 0) return patch;

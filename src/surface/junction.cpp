@@ -6,6 +6,8 @@
 #include "surface/bridge.h"
 #include "surface/field_junction.h"
 #include "surface/junction_faults.h"
+#include "surface/quad_cap.h"
+#include "surface/quad_gate.h"
 #include "surface/untangle.h"
 
 namespace skinforge {
@@ -94,6 +96,18 @@ void try_tubes(Ladder& ladder, const FieldJunction& from_field, const std::vecto
   }
 }
 
+// Caps of quads in the place of triangles, if all are sound.
+void try_quad_caps(Ladder& ladder, const std::vector<JunctionLoop>& loops) {
+  const std::vector<PatchPart> parts = split_parts(ladder.best()->patch, loops);
+  std::vector<std::optional<QuadPatch>> quads;
+  for (const PatchPart& part : parts) {
+    if (part.loops.size() != 1) return;
+    quads.push_back(quad_cap(loops[part.loops[0]]));
+    if (quads.back() && least_scaled_jacobian(*quads.back()) < kLeastJacobian) quads.back().reset();
+  }
+  ladder.offer_quads(together(ladder.best()->patch, parts, quads), JunctionRung::Cap);
+}
+
 // Wide clearance leaves the zip room to turn; a narrow one keeps rings apart where borders are close. Where
 // the surface is thinner than the borders' edges are long, only a finer mesh stays free of cuts.
 void try_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, const SiteField& field,
@@ -118,6 +132,7 @@ void try_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, const Sit
 void try_without_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, JunctionRung rung) {
   for (const bool is_fair : {true, false})
     if (!ladder.is_done()) ladder.offer(bridge_or_cap(loops, is_fair), rung);
+  if (ladder.is_done() && rung == JunctionRung::Cap) try_quad_caps(ladder, loops);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 namespace skinforge {
 namespace {
 
-constexpr double kLeastJacobian = 0.2;              // junction.md c
 constexpr double kMostDeviation = 2.5, kP95 = 1.0;  // junction.md c; voxels
 
 // Of the inner vertices and the middles of the faces, in voxels.
