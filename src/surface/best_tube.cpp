@@ -10,6 +10,7 @@ namespace skinforge {
 namespace {
 
 constexpr double kGoodQuality = 0.5;  // junction.md c: the target of the least scaled Jacobian
+constexpr double kGain = 1e-3;        // ours: less is no gain, so equals do not hang on the last bit
 constexpr double kDomainScale = 0.5;  // ours: of the edges of the patch that carries a tube's coordinates
 
 // Keeps the best of the tubes that pass their gates.
@@ -24,7 +25,7 @@ struct Choice {
     const std::string trouble = fault_of(quads, field);
     if (fault.empty()) fault = trouble;
     const double found = least_scaled_jacobian(quads);
-    if (!trouble.empty() || found <= quality) return;
+    if (!trouble.empty() || found <= quality + kGain) return;
     best = std::move(quads);
     quality = found;
   }

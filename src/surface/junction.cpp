@@ -7,7 +7,6 @@
 #include "surface/field_junction.h"
 #include "surface/junction_faults.h"
 #include "surface/quad_cap.h"
-#include "surface/quad_gate.h"
 #include "surface/untangle.h"
 
 namespace skinforge {
@@ -87,23 +86,22 @@ void try_tubes(Ladder& ladder, const FieldJunction& from_field, const std::vecto
     std::string fault;
     quads[p] = from_field.tube(parts[p], fault);
     if (quads[p]) {
-      const bool is_last = ++made == parts.size();
+      const bool all_made = ++made == parts.size();
       fault = ladder.offer_quads(together(patch, parts, quads),
-                                 is_last ? JunctionRung::Tube : JunctionRung::Field);
+                                 all_made ? JunctionRung::Tube : JunctionRung::Field);
       if (!fault.empty()) quads[p].reset(), --made;
     }
     if (!fault.empty() && reason.empty()) reason = "no tube of quads: " + fault;
   }
 }
 
-// Caps of quads in the place of triangles, if all are sound.
+// Caps of quads in the place of triangles where there are good ones, if together they are sound.
 void try_quad_caps(Ladder& ladder, const std::vector<JunctionLoop>& loops) {
   const std::vector<PatchPart> parts = split_parts(ladder.best()->patch, loops);
   std::vector<std::optional<QuadPatch>> quads;
   for (const PatchPart& part : parts) {
     if (part.loops.size() != 1) return;
     quads.push_back(quad_cap(loops[part.loops[0]]));
-    if (quads.back() && least_scaled_jacobian(*quads.back()) < kLeastJacobian) quads.back().reset();
   }
   ladder.offer_quads(together(ladder.best()->patch, parts, quads), JunctionRung::Cap);
 }

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "base/expect.h"
+#include "surface/quad_gate.h"
 #include "surface/raise_worst.h"
 
 namespace skinforge {
 namespace {
 
 constexpr std::size_t kTried = 3;  // ours: grids of each kind that are made and compared
-constexpr double kGood = 0.2;      // junction.md c: the gate of the least scaled Jacobian
 constexpr double kGain = 1e-3;     // ours: less is no gain, so equals do not hang on the last bit
 
 // A way to lay the grid, and how well its corners and sides suit the border; less is better.
@@ -138,9 +138,9 @@ std::optional<QuadPatch> quad_cap(const JunctionLoop& loop) {
         const double found = least_scaled_jacobian(patch);
         if (found > quality + kGain) best = std::move(patch), quality = found;
       }
-    if (quality >= kGood) break;  // a membrane only where the fair one is poor
+    if (quality >= kLeastJacobian) return best;  // a membrane only where the fair one is poor
   }
-  return best;
+  return std::nullopt;
 }
 
 }  // namespace skinforge

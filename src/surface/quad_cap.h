@@ -11,7 +11,8 @@ namespace skinforge {
 /// A cap of quads over one border (junction.md b.2, N = 1): a grid whose four corners lie where the border
 /// turns most and whose opposite sides are alike; round borders get a ring of quads before the grid, and so
 /// do odd ones, with one triangle in it. It leaves the border along the slope of the preserved faces
-/// (`fair`). None for fewer than four vertices.
+/// (`fair`). None
+/// for fewer than four vertices, or when no grid reaches the least scaled Jacobian of the gate.
 std::optional<QuadPatch> quad_cap(const JunctionLoop& loop);
 
 /// The faces of such a cap, without geometry. `start`: border vertex at the grid's first corner; `width`,

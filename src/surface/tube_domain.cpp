@@ -225,6 +225,36 @@ void turn_round(TubeBorder& border) {
             [](const TubeBorderPoint& p, const TubeBorderPoint& q) { return p.place < q.place; });
 }
 
+// Mean edge and mean depth of the preserved row, over all loops but one.
+struct Pace {
+  double edge = 0, depth = 0;
+};
+
+Pace pace_of_others(const std::vector<JunctionLoop>& loops, std::size_t alone) {
+  Pace sum;
+  double edges = 0;
+  for (std::size_t l = 0; l < loops.size(); ++l) {
+    if (l == alone) continue;
+    const auto count = static_cast<double>(loops[l].positions.size());
+    sum.edge += loop_length(loops[l].positions);
+    sum.depth += count * row_depth(loops[l]);
+    edges += count;
+  }
+  return {sum.edge / edges, sum.depth / edges};
+}
+
+// New vertices along a path, an edge's length apart.
+Seam lay_seam(TubeDomain& domain, const TrianglePatch& patch, const Path& path, double edge) {
+  const int pieces = std::max(1, static_cast<int>(std::lround(length_of(patch, path) / edge)));
+  const Seam seam{path, pieces, static_cast<std::int32_t>(domain.fixed + domain.seams.size())};
+  for (const double place : spaced(patch, path, 0, path.size() - 1, pieces)) {
+    const auto k = static_cast<std::size_t>(place);
+    const Vec3 &p = patch.positions[path[k]], &q = patch.positions[path[k + 1]];
+    domain.seams.emplace_back(p + (place - static_cast<double>(k)) * (q - p));
+  }
+  return seam;
+}
+
 std::optional<TubeDomain> domain_against(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,
                                          std::size_t alone) {
   const std::vector<IndexLoop> borders = lay_borders(loops).loops;
@@ -233,34 +263,20 @@ std::optional<TubeDomain> domain_against(const TrianglePatch& patch, const std::
   TubeDomain domain{patch, {}, {}, {}, patch.fixed};
   std::vector<std::int32_t> original(patch.positions.size());
   std::iota(original.begin(), original.end(), 0);
-  double edge = 0, depth = 0, edges = 0;
-  for (std::size_t l = 0; l < loops.size(); ++l) {
-    if (l == alone) continue;
-    const auto count = static_cast<double>(borders[l].size());
-    edge += loop_length(loops[l].positions);
-    depth += count * row_depth(loops[l]);
-    edges += count;
-  }
+  const Pace pace = pace_of_others(loops, alone);
   std::vector<Seam> seams;
   for (const Path& path : *paths) {
-    const int pieces = std::max(1, static_cast<int>(std::lround(length_of(patch, path) * edges / edge)));
-    seams.push_back({path, pieces, static_cast<std::int32_t>(domain.fixed + domain.seams.size())});
-    const auto places = spaced(patch, path, 0, path.size() - 1, pieces);
-    for (const double place : places) {
-      const auto k = static_cast<std::size_t>(place);
-      const Vec3 &p = patch.positions[path[k]], &q = patch.positions[path[k + 1]];
-      domain.seams.emplace_back(p + (place - static_cast<double>(k)) * (q - p));
-    }
+    seams.push_back(lay_seam(domain, patch, path, pace.edge));
     cut_open(domain.patch, path, original);
   }
   const auto boundary = boundary_loops(domain.patch.triangles);
   if (boundary.size() != 2) return std::nullopt;
-  const bool first_alone =
+  const bool is_first =
       std::find(boundary[0].begin(), boundary[0].end(), borders[alone][0]) != boundary[0].end();
-  domain.a = border_of(domain, boundary[first_alone ? 0 : 1], original, seams);
-  domain.b = border_of(domain, boundary[first_alone ? 1 : 0], original, seams);
+  domain.a = border_of(domain, boundary[is_first ? 0 : 1], original, seams);
+  domain.b = border_of(domain, boundary[is_first ? 1 : 0], original, seams);
   domain.a.depth = row_depth(loops[alone]);
-  domain.b.depth = depth / edges;
+  domain.b.depth = pace.depth;
   turn_round(domain.b);
   return domain;
 }

@@ -165,9 +165,8 @@ TEST(TubeChart, ADiscIsNoTube) {
   EXPECT_FALSE(TubeChart::make(disc, up_to(0, 12), up_to(0, 12)));
 }
 
-// Same counts: rows and columns of rectangles as deep as they are wide.
-TEST(QuadTube, EqualCountsGiveAGrid) {
-  const Wall wall(24, 24, 3);
+// The tube of the rows it asks for.
+void make_tube(const Wall& wall, QuadPatch& tube) {
   std::string fault;
   const std::vector<TubeDomain> domains = tube_domains(wall.domain, wall.loops);
   ASSERT_EQ(domains.size(), 1u);
@@ -175,7 +174,14 @@ TEST(QuadTube, EqualCountsGiveAGrid) {
   ASSERT_TRUE(tubes) << fault;
   const auto table = tubes->table(tubes->wanted_rows(), {});
   ASSERT_TRUE(table);
-  const QuadPatch tube = tubes->made(*table, tubes->wanted_rows(), Wall::surface());
+  tube = tubes->made(*table, tubes->wanted_rows(), Wall::surface());
+}
+
+// Same counts: rows and columns of rectangles as deep as they are wide.
+TEST(QuadTube, EqualCountsGiveAGrid) {
+  const Wall wall(24, 24, 3);
+  QuadPatch tube;
+  ASSERT_NO_FATAL_FAILURE(make_tube(wall, tube));
   EXPECT_EQ(tube.quads.size(), 24u * 11);  // 3 / (2 pi / 24) is 11.5 arcs, and 11.49 edges
   EXPECT_TRUE(tube.triangles.empty());
   EXPECT_GT(least_scaled_jacobian(tube), 0.9);
@@ -187,14 +193,8 @@ class TubeQuality : public ::testing::TestWithParam<std::pair<int, int>> {};
 TEST_P(TubeQuality, OnACylinder) {
   const auto [n, m] = GetParam();
   const Wall wall(n, m, 4);
-  std::string fault;
-  const std::vector<TubeDomain> domains = tube_domains(wall.domain, wall.loops);
-  ASSERT_EQ(domains.size(), 1u);
-  const auto tubes = QuadTube::make(domains[0], fault);
-  ASSERT_TRUE(tubes) << fault;
-  const auto table = tubes->table(tubes->wanted_rows(), {});
-  ASSERT_TRUE(table);
-  const QuadPatch tube = tubes->made(*table, tubes->wanted_rows(), Wall::surface());
+  QuadPatch tube;
+  ASSERT_NO_FATAL_FAILURE(make_tube(wall, tube));
   EXPECT_EQ(tube.triangles.size(), static_cast<std::size_t>((n + m) % 2));
   EXPECT_GE(least_scaled_jacobian(tube), 0.2);
   const TrianglePatch halves = halved(tube);
