@@ -24,11 +24,20 @@ double blend_replace(double distance0, double presence0, double distance1, doubl
   return (1 - both) * mean + both * nearer;  // Eq. 1, replacement, where at most one source is wholly present
 }
 
-double blend_union(double distance0, double distance1, double fillet) {
-  const double least = std::min(distance0, distance1);  // Eq. 1, addition
-  if (!(fillet > 0)) return least;
-  const double x = std::max(fillet - std::abs(distance0 - distance1), 0.0) / fillet;
-  return least - fillet * x * x * x / 6;
+double smooth_min(double distance0, double distance1, double radius) {
+  const double least = std::min(distance0, distance1);
+  if (!(radius > 0)) return least;
+  const double x = std::max(radius - std::abs(distance0 - distance1), 0.0) / radius;
+  return least - radius * x * x * x / 6;
+}
+
+double smooth_max(double distance0, double distance1, double radius) {
+  return -smooth_min(-distance0, -distance1, radius);
+}
+
+double fillet_share(const Vec3& normal0, const Vec3& normal1) {
+  constexpr double kLeast = 0.05;
+  return std::clamp(1 - normal0.dot(normal1), kLeast, 1.0);
 }
 
 }  // namespace skinforge

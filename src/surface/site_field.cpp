@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "base/parallel.h"
-#include "field/blend.h"
 #include "field/source_distance.h"
 
 namespace skinforge {
@@ -43,6 +42,27 @@ void extend_by_contact(Box& box, const FusionSolid& of, const FusionSolid& other
     if (signed_distance(other, p, reach) < reach) box.extend(p);
 }
 
+// Faces of the hosts of an added part in the region, and one ring of faces around them: what may be given up
+// for it (`PreserveOptions::added_rings`).
+Box given_up_region(const std::vector<FusionSolid>& solids, const Box& region) {
+  Box box = region;
+  if (std::none_of(solids.begin(), solids.end(), [](const FusionSolid& s) { return s.is_added; })) return box;
+  for (const FusionSolid& host : solids) {
+    if (!host.is_host) continue;
+    std::vector<char> reached(host.positions.size(), 0);
+    for (std::size_t v = 0; v < reached.size(); ++v) reached[v] = region.contains(host.positions[v]);
+    for (int ring = 0; ring < 2; ++ring) {
+      const std::vector<char> before = reached;
+      for (const Triangle& t : host.triangles)
+        if (std::any_of(t.begin(), t.end(), [&](std::int32_t v) { return before[v] != 0; }))
+          for (const std::int32_t v : t) reached[v] = 1;
+    }
+    for (std::size_t v = 0; v < reached.size(); ++v)
+      if (reached[v]) box.extend(host.positions[v]);
+  }
+  return box;
+}
+
 double mean_edge_in(const FusionSolid& solid, const Box& box) {
   double sum = 0, count = 0;
   for (const Triangle& t : solid.triangles) {
@@ -54,23 +74,6 @@ double mean_edge_in(const FusionSolid& solid, const Box& box) {
     }
   }
   return count > 0 ? sum / count : 0;
-}
-
-// Length of the line of presence 1/2: how far it is around the cut.
-double cut_girth(const FusionSolid& solid) {
-  double length = 0;
-  for (const Triangle& t : solid.triangles) {
-    std::array<Vec3, 3> crossing;
-    int found = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double a = solid.presence[t[k]] - 0.5, b = solid.presence[t[(k + 1) % 3]] - 0.5;
-      if ((a < 0) == (b < 0)) continue;
-      crossing[found++] =
-          solid.positions[t[k]] + a / (a - b) * (solid.positions[t[(k + 1) % 3]] - solid.positions[t[k]]);
-    }
-    if (found == 2) length += (crossing[1] - crossing[0]).norm();
-  }
-  return length;
 }
 
 double choose_voxel(const std::vector<FusionSolid>& solids, const Box& box, const FieldOptions& options) {
@@ -101,29 +104,31 @@ Lattice make_lattice(Box box, double voxel, const FieldOptions& options) {
   return lattice;
 }
 
-// What one solid says about one point.
-struct Sample {
-  double distance = 0, presence = 0;
-  bool is_added = false;
-};
-
-// Eq. 1 at one point: replacement by the two of highest presence, then addition.
-double blend_samples(std::span<const Sample> samples, double fillet) {
-  const Sample *first = nullptr, *second = nullptr;
-  for (const Sample& s : samples) {
-    if (s.is_added) continue;
-    if (!first || s.presence > first->presence)
-      second = first, first = &s;
-    else if (!second || s.presence > second->presence)
-      second = &s;
+// Unit direction in which a sampled distance grows at a lattice point; zero where it does not.
+Vec3 direction_at(const Lattice& lattice, const std::vector<float>& distance, std::size_t i) {
+  const std::array<std::size_t, 3> stride = {1, static_cast<std::size_t>(lattice.size[0]),
+                                             static_cast<std::size_t>(lattice.size[0]) * lattice.size[1]};
+  Vec3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t place = i / stride[axis] % static_cast<std::size_t>(lattice.size[axis]);
+    const std::size_t low = place > 0 ? i - stride[axis] : i;
+    const std::size_t high = place + 1 < static_cast<std::size_t>(lattice.size[axis]) ? i + stride[axis] : i;
+    gradient[axis] = static_cast<double>(distance[high]) - static_cast<double>(distance[low]);
   }
-  double result = std::numeric_limits<double>::infinity();
-  if (first)
-    result = second ? blend_replace(first->distance, first->presence, second->distance, second->presence)
-                    : first->distance;
-  for (const Sample& s : samples)
-    if (s.is_added) result = std::isinf(result) ? s.distance : blend_union(result, s.distance, fillet);
-  return result;
+  const double norm = gradient.norm();
+  return norm > 0 ? Vec3(gradient / norm) : Vec3(Vec3::Zero());
+}
+
+// The same by exact queries, a voxel to either side as on the lattice.
+Vec3 direction_at(const FusionSolid& solid, const Vec3& point, const SiteField& field) {
+  Vec3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 step = field.voxel() * Vec3::Unit(axis);
+    gradient[axis] =
+        signed_distance(solid, point + step, field.band) - signed_distance(solid, point - step, field.band);
+  }
+  const double norm = gradient.norm();
+  return norm > 0 ? Vec3(gradient / norm) : Vec3(Vec3::Zero());
 }
 
 }  // namespace
@@ -147,7 +152,7 @@ Lattice field_lattice(const std::vector<FusionSolid>& solids, const FieldOptions
   if (box.isEmpty()) return {};
   const double voxel = choose_voxel(solids, box, options);
   if (!(voxel > 0) || !std::isfinite(voxel)) return {};
-  return make_lattice(box, voxel, options);
+  return make_lattice(given_up_region(solids, box), voxel, options);
 }
 
 SiteField build_site_field(const std::vector<FusionSolid>& solids, const FieldOptions& options) {
@@ -155,25 +160,26 @@ SiteField build_site_field(const std::vector<FusionSolid>& solids, const FieldOp
   field.distance.lattice = field_lattice(solids, options);
   const Lattice& lattice = field.distance.lattice;
   if (lattice.count() == 0) return field;
-  field.fillet = options.fillet_voxels * lattice.voxel;
+  field.blend = site_blend(solids, options.blend, options.fillet_voxels * lattice.voxel);
   field.band = options.band_voxels * lattice.voxel;
   std::vector<SourceSamples> sources;
   for (const FusionSolid& solid : solids)
     sources.push_back(sample_source(lattice, solid.bvh, solid.triangles, solid.presence, field.band));
   field.distance.values.resize(lattice.count());
   parallel_chunks(lattice.count(), 4096, [&](std::size_t begin, std::size_t end) {
-    std::vector<Sample> samples(solids.size());
+    std::vector<SolidSample> samples(solids.size());
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t s = 0; s < solids.size(); ++s)
-        samples[s] = {sources[s].distance[i], sources[s].presence[i], solids[s].is_added};
-      field.distance.values[i] = static_cast<float>(blend_samples(samples, field.fillet));
+        samples[s] = {sources[s].distance[i], sources[s].presence[i]};
+      const auto direction = [&](std::size_t s) { return direction_at(lattice, sources[s].distance, i); };
+      field.distance.values[i] = static_cast<float>(blend_samples(field.blend, samples, direction));
     }
   });
   return field;
 }
 
 double blended_distance(const std::vector<FusionSolid>& solids, const SiteField& field, const Vec3& point) {
-  std::vector<Sample> samples;
+  std::vector<SolidSample> samples;
   for (const FusionSolid& solid : solids) {
     const ClosestPoint closest = solid.bvh.closest(point, field.band);
     double presence = 0;
@@ -181,10 +187,10 @@ double blended_distance(const std::vector<FusionSolid>& solids, const SiteField&
       for (int k = 0; k < 3; ++k)
         presence += closest.barycentric[k] * solid.presence[solid.triangles[closest.triangle][k]];
     const double distance = closest.triangle < 0 ? field.band : closest.distance;
-    samples.push_back(
-        {solid.bvh.winding_number(point) > 0.5 ? -distance : distance, presence, solid.is_added});
+    samples.push_back({solid.bvh.winding_number(point) > 0.5 ? -distance : distance, presence});
   }
-  return blend_samples(samples, field.fillet);
+  return blend_samples(field.blend, samples,
+                       [&](std::size_t s) { return direction_at(solids[s], point, field); });
 }
 
 }  // namespace skinforge

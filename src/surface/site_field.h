@@ -3,36 +3,37 @@
 #include <Eigen/Geometry>
 
 #include "field/signed_distance.h"
-#include "surface/fusion_solid.h"
+#include "surface/solid_blend.h"
 
 namespace skinforge {
 
 struct FieldOptions {
   double voxel_factor = 0.8;  ///< Sec. 6.1: times the lesser mean edge length
   double girth_voxels = 8;    ///< junction.md b.0: a loop is at least pi times this many voxels around
-  double fillet_voxels = 3;   ///< junction.md d.2: radius of the smooth minimum in a union; 0 = sharp
-  double margin_voxels = 5;   ///< ours: the lattice reaches this far beyond the affected region
-  double band_voxels = 30;    ///< distances are cut at this many voxels
+  double fillet_voxels = 3;   ///< junction.md d.2: radius of the fillet in a union
+  BlendOptions blend = {};
+  double margin_voxels = 5;            ///< ours: the lattice reaches this far beyond the affected region
+  double band_voxels = 30;             ///< distances are cut at this many voxels
   std::size_t max_points = 4'000'000;  ///< ours: a larger lattice gets a larger voxel
 
   template <class Archive>
   friend void fields(Archive& a, FieldOptions& o) {
-    a(o.voxel_factor, o.girth_voxels, o.fillet_voxels, o.margin_voxels, o.band_voxels, o.max_points);
+    a(o.voxel_factor, o.girth_voxels, o.fillet_voxels, o.blend, o.margin_voxels, o.band_voxels, o.max_points);
   }
 };
 
 /// The field of one junction: of one site, or of several whose regions run into each other.
 struct SiteField {
   DistanceField distance;  ///< delta_R; empty lattice when there is nothing to blend
-  double fillet = 0;       ///< metres
-  double band = 0;         ///< metres
+  SiteBlend blend;
+  double band = 0;  ///< metres
 
   bool is_empty() const { return distance.values.empty(); }
   double voxel() const { return distance.lattice.voxel; }
 
   template <class Archive>
   friend void fields(Archive& a, SiteField& f) {
-    a(f.distance, f.fillet, f.band);
+    a(f.distance, f.blend, f.band);
   }
 };
 

@@ -47,20 +47,33 @@ TEST(BlendReplace, MeanAndSymmetric) {
     }
 }
 
-TEST(BlendUnion, ByHand) {
-  EXPECT_EQ(blend_union(2, -1, 0), -1);
-  EXPECT_EQ(blend_union(2, -1, 3), -1);                     // differ by the radius: exact
-  EXPECT_NEAR(blend_union(1, 1, 3), 0.5, kRounding);        // equal: lower by radius / 6
-  EXPECT_NEAR(blend_union(0, 1, 2), -1.0 / 24, kRounding);  // x = 1/2: 2 / (8 * 6)
-  EXPECT_EQ(blend_union(0, 1, 2), blend_union(1, 0, 2));
+TEST(SmoothMin, ByHand) {
+  EXPECT_EQ(smooth_min(2, -1, 0), -1);
+  EXPECT_EQ(smooth_min(2, -1, 3), -1);                     // differ by the radius: exact
+  EXPECT_NEAR(smooth_min(1, 1, 3), 0.5, kRounding);        // equal: lower by radius / 6
+  EXPECT_NEAR(smooth_min(0, 1, 2), -1.0 / 24, kRounding);  // x = 1/2: 2 / (8 * 6)
+  EXPECT_EQ(smooth_min(0, 1, 2), smooth_min(1, 0, 2));
 }
 
-TEST(BlendUnion, NeverAboveTheMinimumNorFarBelow) {
+TEST(SmoothMin, NeverAboveTheMinimumNorFarBelow) {
   for (double a = -2; a <= 2; a += 0.25)
     for (double b = -2; b <= 2; b += 0.25) {
-      EXPECT_LE(blend_union(a, b, 0.9), std::min(a, b));
-      EXPECT_GE(blend_union(a, b, 0.9), std::min(a, b) - 0.15 - kRounding);
+      EXPECT_LE(smooth_min(a, b, 0.9), std::min(a, b));
+      EXPECT_GE(smooth_min(a, b, 0.9), std::min(a, b) - 0.15 - kRounding);
     }
+}
+
+TEST(SmoothMax, MirrorsTheMinimum) {
+  EXPECT_NEAR(smooth_max(1, 1, 3), 1.5, kRounding);
+  EXPECT_EQ(smooth_max(2, -1, 3), 2);
+}
+
+// By hand: whole at a right angle and beyond, half at 60 degrees, next to nothing side by side.
+TEST(FilletShare, ByHand) {
+  EXPECT_EQ(fillet_share(Vec3::UnitX(), Vec3::UnitY()), 1);
+  EXPECT_EQ(fillet_share(Vec3::UnitX(), -Vec3::UnitX()), 1);
+  EXPECT_NEAR(fillet_share(Vec3::UnitX(), Vec3(0.5, std::sqrt(0.75), 0)), 0.5, kRounding);
+  EXPECT_EQ(fillet_share(Vec3::UnitX(), Vec3::UnitX()), 0.05);
 }
 
 }  // namespace
