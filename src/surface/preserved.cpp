@@ -82,6 +82,26 @@ void tidy(const PolygonMesh& mesh, const EdgeList& edges, const PreserveOptions&
   drop_pinches(mesh, edges, kept);
 }
 
+void give_up(SourceSelection& selection, std::size_t face, std::size_t site) {
+  selection.kept[face] = 0;
+  selection.face_site[face] = static_cast<std::int32_t>(site);
+}
+
+// Kept faces that touch those that were given up for a site.
+void give_up_ring(const PolygonMesh& mesh, const SiteParticipant& participant, SourceSelection& selection,
+                  std::size_t site) {
+  std::vector<char> is_near(mesh.vertex_count(), 0);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f)
+    if (!selection.kept[f] && selection.face_site[f] == static_cast<std::int32_t>(site))
+      for (const VertexId v : mesh.face(FaceId(f))) is_near[v.index()] = 1;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(FaceId(f));
+    if (selection.kept[f] && participant.fusing[f] &&
+        std::any_of(face.begin(), face.end(), [&](VertexId v) { return is_near[v.index()] != 0; }))
+      give_up(selection, f, site);
+  }
+}
+
 }  // namespace
 
 void discard_moved_faces(std::span<PreservedSource> sources, std::span<const SiteParticipant> participants,
@@ -90,6 +110,8 @@ void discard_moved_faces(std::span<PreservedSource> sources, std::span<const Sit
   if (field.is_empty()) return;
   const Eigen::AlignedBox3d box = field.distance.lattice.box();
   const double tolerance = options.moved_voxels * field.voxel();
+  const bool is_addition = std::any_of(participants.begin(), participants.end(),
+                                       [](const SiteParticipant& p) { return p.is_added; });
   for (const SiteParticipant& participant : participants) {
     PreservedSource& source = sources[participant.source.index()];
     const PolygonMesh& mesh = *source.mesh;
@@ -103,10 +125,11 @@ void discard_moved_faces(std::span<PreservedSource> sources, std::span<const Sit
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
       if (!source.selection.kept[f] || !participant.fusing[f]) continue;
       const auto face = mesh.face(FaceId(f));
-      if (std::none_of(face.begin(), face.end(), is_moved)) continue;
-      source.selection.kept[f] = 0;
-      source.selection.face_site[f] = static_cast<std::int32_t>(site);
+      if (std::any_of(face.begin(), face.end(), is_moved)) give_up(source.selection, f, site);
     }
+    if (is_addition && participant.is_host)
+      for (int ring = 0; ring < options.added_rings; ++ring)
+        give_up_ring(mesh, participant, source.selection, site);
   }
 }
 
@@ -118,8 +141,7 @@ std::size_t discard_faces(std::span<PreservedSource> sources, std::span<const Si
     for (const auto& [source, face] : faces) {
       if (source != participant.source || !participant.fusing[face.index()]) continue;
       if (!selection.kept[face.index()]) continue;
-      selection.kept[face.index()] = 0;
-      selection.face_site[face.index()] = static_cast<std::int32_t>(site);
+      give_up(selection, face.index(), site);
       ++discarded;
     }
   }

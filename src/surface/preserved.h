@@ -19,6 +19,9 @@ struct PreservedSource {
 struct PreserveOptions {
   double moved_voxels =
       0.05;  ///< junction.md a.3: a kept face goes where the blended surface leaves it by this much
+  /// Rings of faces that a host gives up around those that an added part moves: room in which rows can meet.
+  /// Departure: the program of the paper's authors gives up two on either side.
+  int added_rings = 1;
   int least_faces = 4;  ///< ours: smaller groups of kept faces at a border are crumbs
   double straighten_share =
       0.15;  ///< junction.md b.0: at most this share of a source's border faces is given up ...
@@ -26,12 +29,13 @@ struct PreserveOptions {
 
   template <class Archive>
   friend void fields(Archive& a, PreserveOptions& o) {
-    a(o.moved_voxels, o.least_faces, o.straighten_share, o.straighten_least);
+    a(o.moved_voxels, o.added_rings, o.least_faces, o.straighten_share, o.straighten_least);
   }
 };
 
 /// Discards kept fused faces of the participants whose vertices do not lie on the blended surface of the
-/// site: inside the other part, or in a fillet. `solids`: one per participant.
+/// site: inside the other part, or in a fillet; around an added part some more. `solids`: one per
+/// participant.
 void discard_moved_faces(std::span<PreservedSource> sources, std::span<const SiteParticipant> participants,
                          const std::vector<FusionSolid>& solids, const SiteField& field, std::size_t site,
                          const PreserveOptions& options);

@@ -128,7 +128,9 @@ TEST(DiscardMovedFaces, FacesInsideTheOtherPartGo) {
   field.distance.lattice = {.origin = Vec3(-5, -5, -5), .voxel = 0.5, .size = {21, 21, 21}};
   field.distance.values.assign(field.distance.lattice.count(), 0);  // asked only whether it is there
   field.band = 10;
-  discard_moved_faces(sources, participants, solids, field, 9, {});
+  field.blend = site_blend(solids, {BlendOperator::Paper, 0}, 0);
+  const std::vector<PreservedSource> whole = sources;
+  discard_moved_faces(sources, participants, solids, field, 9, {.added_rings = 0});
   const auto is_inside = [](const PolygonMesh& mesh, std::size_t f, const auto& holds) {
     const auto face = mesh.face(FaceId(f));
     return std::any_of(face.begin(), face.end(),
@@ -144,6 +146,17 @@ TEST(DiscardMovedFaces, FacesInsideTheOtherPartGo) {
   for (std::size_t f = 0; f < post.face_count(); ++f)
     EXPECT_EQ(sources[1].selection.kept[f] == 0,
               is_inside(meshes[1], f, [](const Vec3& p) { return p.x() < 1.9; }));
+  // One more ring of the host, whose faces are 1/2 wide, and none of the added part.
+  std::vector<PreservedSource> wider = whole;
+  discard_moved_faces(wider, participants, solids, field, 9, {.added_rings = 1});
+  for (std::size_t f = 0; f < box.face_count(); ++f)
+    EXPECT_EQ(wider[0].selection.kept[f] == 0, is_inside(meshes[0], f,
+                                                         [](const Vec3& p) {
+                                                           return p.x() > 1.9 && std::abs(p.y()) < 1.4 &&
+                                                                  std::abs(p.z()) < 1.4;
+                                                         }))
+        << f;
+  EXPECT_EQ(wider[1].selection.kept, sources[1].selection.kept);
 }
 
 }  // namespace
