@@ -170,7 +170,7 @@ std::optional<QuadPatch> FieldJunction::tube(const PatchPart& part, std::string&
   for (const std::size_t l : part.loops) loops.push_back(loops_[l]);
   const WantedSurface surface{onto_field(field_.distance),
                               [&](const Vec3& p) { return field_.distance.gradient(p); }};
-  return best_tube(part.patch, loops, field_.distance, surface, fault);
+  return best_tube(part.patch, {loops, field_.distance, surface, kept_}, fault);
 }
 
 }  // namespace skinforge

@@ -86,16 +86,26 @@ class Polisher {
   std::vector<int> uses_;
 };
 
+template <class Take>
+void for_each_jacobian(const QuadPatch& patch, const Take& take) {
+  const auto at = [&](std::int32_t v) { return patch.positions[v]; };
+  for (const Quad& q : patch.quads) take(scaled_jacobian_of_quad(at(q[0]), at(q[1]), at(q[2]), at(q[3])));
+  for (const Triangle& t : patch.triangles) take(scaled_jacobian_of_triangle(at(t[0]), at(t[1]), at(t[2])));
+}
+
 }  // namespace
 
 double least_scaled_jacobian(const QuadPatch& patch) {
   double least = 1;
-  const auto at = [&](std::int32_t v) { return patch.positions[v]; };
-  for (const Quad& q : patch.quads)
-    least = std::min(least, scaled_jacobian_of_quad(at(q[0]), at(q[1]), at(q[2]), at(q[3])));
-  for (const Triangle& t : patch.triangles)
-    least = std::min(least, scaled_jacobian_of_triangle(at(t[0]), at(t[1]), at(t[2])));
+  for_each_jacobian(patch, [&](double jacobian) { least = std::min(least, jacobian); });
   return least;
+}
+
+double mean_scaled_jacobian(const QuadPatch& patch) {
+  double sum = 0;
+  for_each_jacobian(patch, [&](double jacobian) { sum += jacobian; });
+  const std::size_t faces = patch.quads.size() + patch.triangles.size();
+  return faces == 0 ? 1 : sum / static_cast<double>(faces);
 }
 
 void polish(QuadPatch& patch, const Projection& project) {

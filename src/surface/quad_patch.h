@@ -22,6 +22,9 @@ struct QuadPatch {
 /// The least scaled Jacobian of its faces (`scaled_jacobian.h`).
 double least_scaled_jacobian(const QuadPatch& patch);
 
+/// Their mean; 1 without faces.
+double mean_scaled_jacobian(const QuadPatch& patch);
+
 /// Moves free vertices towards the mean of the rectangles that fit their faces best, and a little towards the
 /// mean of their neighbours, and projects them, a fixed number of times (junction.md b.2, step 6).
 void polish(QuadPatch& patch, const Projection& project);

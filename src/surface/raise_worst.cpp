@@ -11,7 +11,10 @@
 namespace skinforge {
 namespace {
 
-constexpr double kGood = 0.5;                      // junction.md c: the target
+// How bad the faces around a vertex are, and from which quality of a face on its vertices are left alone.
+enum class Aim { Mean, Worst };
+constexpr double kGoodMean = 0.9, kGoodWorst = 0.5;  // ours; junction.md c: the target of the least
+
 constexpr int kRounds = 16;                        // ours
 constexpr int kDirections = 8;                     // ours: tried around a vertex
 constexpr double kFirstStep = 0.4, kShrink = 0.8;  // ours: of the mean edge at the vertex
@@ -25,7 +28,8 @@ class Search {
       for (const std::int32_t v : face(f)) faces_[v].push_back(f);
   }
 
-  void run() {
+  void run(Aim aim) {
+    aim_ = aim;
     double step = kFirstStep;
     for (int round = 0; round < kRounds; ++round, step *= kShrink) {
       const std::set<std::int32_t> poor = poor_vertices();
@@ -53,16 +57,20 @@ class Search {
     return normal.dot(surface_.outward(centre)) < 0 ? std::min(jacobian, 0.0) - 1 : jacobian;
   }
 
-  double quality_around(std::int32_t v) const {
-    double least = 1;
-    for (const std::size_t f : faces_[v]) least = std::min(least, quality(f));
-    return least;
+  double badness_around(std::int32_t v) const {
+    double worst = 0, sum = 0;
+    for (const std::size_t f : faces_[v]) {
+      const double bad = 1 - quality(f);
+      worst = std::max(worst, bad);
+      sum += bad * bad * bad;  // ours: a cube weighs the worst most, and still gains from all
+    }
+    return aim_ == Aim::Mean ? sum : worst;
   }
 
   std::set<std::int32_t> poor_vertices() const {
     std::set<std::int32_t> poor;
     for (std::size_t f = 0; f < face_count(); ++f)
-      if (quality(f) < kGood)
+      if (quality(f) < (aim_ == Aim::Mean ? kGoodMean : kGoodWorst))
         for (const std::int32_t v : face(f))
           if (static_cast<std::size_t>(v) >= patch_.fixed) poor.insert(v);
     return poor;
@@ -95,14 +103,14 @@ class Search {
     const Vec3 along = patch_.positions[ring[(k + 1) % ring.size()]] - start;
     const Vec3 x = (along - along.dot(normal) * normal).normalized(), y = normal.cross(x);
     if (!x.allFinite()) return;
-    double best = quality_around(v);
+    double best = badness_around(v);
     Vec3 place = start;
     for (int d = 0; d < kDirections; ++d) {
       const double angle = 2 * std::numbers::pi * d / kDirections;
       patch_.positions[v] =
           surface_.project(start + step * length * (std::cos(angle) * x + std::sin(angle) * y));
-      const double found = quality_around(v);
-      if (found > best + kGain) best = found, place = patch_.positions[v];
+      const double found = badness_around(v);
+      if (found < (1 - kGain) * best) best = found, place = patch_.positions[v];
     }
     patch_.positions[v] = place;
   }
@@ -110,12 +118,15 @@ class Search {
   QuadPatch& patch_;
   const WantedSurface& surface_;
   std::vector<std::vector<std::size_t>> faces_;
+  Aim aim_ = Aim::Mean;
 };
 
 }  // namespace
 
 void raise_worst(QuadPatch& patch, const WantedSurface& surface) {
-  Search(patch, surface).run();
+  Search search(patch, surface);
+  search.run(Aim::Mean);
+  search.run(Aim::Worst);
 }
 
 }  // namespace skinforge

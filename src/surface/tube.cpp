@@ -120,10 +120,11 @@ std::optional<TubeTable> QuadTube::table(int rows, const TubeOptions& options) c
   return solve_tube(side_a_, side_b_, rows, options);
 }
 
-QuadPatch QuadTube::made(const TubeTable& table, int rows, const WantedSurface& surface) const {
+QuadPatch QuadTube::made(const TubeTable& table, int rows, const WantedSurface& surface,
+                         bool is_polished) const {
   const Rows laid = lay_rows(lengths_, domain_->a.depth, domain_->b.depth, rows);
   QuadPatch patch = lifted(mesh_of(table, side_a_, side_b_, laid.share), chart_, laid, *domain_);
-  polish(patch, surface.project);
+  if (is_polished) polish(patch, surface.project);
   raise_worst(patch, surface);
   return patch;
 }

@@ -24,7 +24,8 @@ class QuadTube {
   std::optional<TubeTable> table(int rows, const TubeOptions& options) const;
 
   /// The tube of a table. Vertices: the fixed ones of the domain, those of its seams, the new ones.
-  QuadPatch made(const TubeTable& table, int rows, const WantedSurface& surface) const;
+  /// `is_polished`: places are evened out first, which serves all but thin and sharp shapes.
+  QuadPatch made(const TubeTable& table, int rows, const WantedSurface& surface, bool is_polished) const;
 
  private:
   QuadTube(const TubeDomain& domain, TubeChart chart) : domain_(&domain), chart_(std::move(chart)) {}

@@ -99,7 +99,7 @@ TEST(TubeDomains, TubesWithSeamsAreWatertight) {
     ASSERT_TRUE(tube) << fault;
     const auto table = tube->table(tube->wanted_rows(), {});
     ASSERT_TRUE(table);
-    const QuadPatch quads = tube->made(*table, tube->wanted_rows(), Board::surface());
+    const QuadPatch quads = tube->made(*table, tube->wanted_rows(), Board::surface(), true);
     EXPECT_TRUE(quads.triangles.empty());
     const TrianglePatch halves = halved(quads);
     for (const auto& [edge, uses] : testing::half_edge_uses(halves.triangles)) EXPECT_EQ(uses, 1);

@@ -174,7 +174,7 @@ void make_tube(const Wall& wall, QuadPatch& tube) {
   ASSERT_TRUE(tubes) << fault;
   const auto table = tubes->table(tubes->wanted_rows(), {});
   ASSERT_TRUE(table);
-  tube = tubes->made(*table, tubes->wanted_rows(), Wall::surface());
+  tube = tubes->made(*table, tubes->wanted_rows(), Wall::surface(), true);
 }
 
 // Same counts: rows and columns of rectangles as deep as they are wide.
