@@ -14,7 +14,7 @@ class Field final : public Stage {
   StageInfo info() const override {
     return {.name = "field",
             .instance = std::to_string(site_ + 1),
-            .version = 1,
+            .version = 2,
             .reads = {names_.graft(), names_.placed(), names_.selection(), names_.groups()},
             .writes = {names_.field(site_), names_.vdb(site_)}};
   }

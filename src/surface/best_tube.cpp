@@ -1,6 +1,7 @@
 #include "surface/best_tube.h"
 
 #include <algorithm>
+#include <span>
 
 #include "surface/junction_faults.h"
 #include "surface/quad_gate.h"
@@ -59,15 +60,18 @@ class Choice {
 };
 
 // Tables for one tube: junction.md b.2, step 6. Seams leave more ways to go on, and one table each is enough.
-std::vector<TubeOptions> options_for(std::size_t borders) {
-  if (borders > 2) return {{}};
-  return {{}, {.stack_cost = 10.0 / 3}, {.stack_cost = 30}};
+std::span<const TubeOptions> options_for(std::size_t borders) {
+  static constexpr TubeOptions kOptions[] = {{}, {.stack_cost = 10.0 / 3}, {.stack_cost = 30}};
+  return std::span(kOptions).first(borders > 2 ? 1 : 3);
 }
+
+// Rows more than the borders' pace asks for: a few where they are deep beside the shape that they follow.
+constexpr int kMoreRows[] = {0, 1, -1, 2, 3, 4};
 
 void try_tables(const QuadTube& tube, const TubeProblem& problem, Choice& choice) {
   std::vector<std::pair<int, TubeTable>> tried;
   for (const TubeOptions& options : options_for(problem.loops.size()))
-    for (const int more : {0, 1, -1, 2}) {
+    for (const int more : kMoreRows) {
       const int rows = tube.wanted_rows() + more;
       const auto table = tube.table(rows, options);
       if (!table || std::find(tried.begin(), tried.end(), std::pair(rows, *table)) != tried.end()) continue;

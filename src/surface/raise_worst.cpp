@@ -3,22 +3,29 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <set>
+#include <optional>
 
 #include "geometry/scaled_jacobian.h"
 
 namespace skinforge {
 namespace {
 
-// How bad the faces around a vertex are, and from which quality of a face on its vertices are left alone.
-enum class Aim { Mean, Worst };
-constexpr double kGoodMean = 0.9, kGoodWorst = 0.5;  // ours; junction.md c: the target of the least
+// What counts beside the lack of quality (ours): voxels off the surface, beyond the first; the squared
+// distance from the middle of the neighbours, in edges; and badness that hardly changes, at which a vertex
+// stays.
+constexpr double kOff = 0.5, kOffWeight = 0.2, kEvenWeight = 0.2, kFlat = 1e-3;
 
-constexpr int kRounds = 16;                        // ours
-constexpr int kDirections = 8;                     // ours: tried around a vertex
-constexpr double kFirstStep = 0.4, kShrink = 0.8;  // ours: of the mean edge at the vertex
-constexpr double kGain = 1.0 / 1024;  // ours: less is no gain, so equals do not hang on the last bit
+// Two passes (ours): first all faces gain, then the worst above all and the rest counts little.
+struct Pass {
+  int power;    // of the lack of quality
+  double rest;  // factor of all that counts beside it
+};
+constexpr Pass kPasses[] = {{3, 1}, {6, 0.1}};
+constexpr int kRounds = 16;  // of each pass
+constexpr double kFirstStep = 0.6,
+                 kShrink = 0.8;  // ours: how far is asked and gone, of the mean edge at the vertex
+constexpr double kDamping =
+    0.5;  // ours: whole steps made noise in the last bit of a position grow a hundredfold
 
 class Search {
  public:
@@ -28,13 +35,16 @@ class Search {
       for (const std::int32_t v : face(f)) faces_[v].push_back(f);
   }
 
-  void run(Aim aim) {
-    aim_ = aim;
-    double step = kFirstStep;
-    for (int round = 0; round < kRounds; ++round, step *= kShrink) {
-      const std::set<std::int32_t> poor = poor_vertices();
-      if (poor.empty()) return;
-      for (const std::int32_t v : poor) improve(v, step);
+  // Every free vertex towards less badness, all faces in sum, later the worst above all. No place is compared
+  // with another: where a vertex goes depends on all numbers continuously, so equal inputs at two scales stay
+  // alike.
+  void run() {
+    for (const Pass& pass : kPasses) {
+      pass_ = pass;
+      double step = kFirstStep;
+      for (int round = 0; round < kRounds; ++round, step *= kShrink)
+        for (std::size_t v = patch_.fixed; v < patch_.positions.size(); ++v)
+          if (!faces_[v].empty()) descend(static_cast<std::int32_t>(v), step);
     }
   }
 
@@ -45,88 +55,111 @@ class Search {
     return patch_.triangles[f - patch_.quads.size()];
   }
 
-  double quality(std::size_t f) const {
+  struct Shape {
     std::array<Vec3, 4> corners;
-    const auto vertices = face(f);
+    std::size_t count = 0;
     Vec3 centre = Vec3::Zero();
-    for (std::size_t k = 0; k < vertices.size(); ++k) centre += corners[k] = patch_.positions[vertices[k]];
-    centre /= static_cast<double>(vertices.size());
-    const double jacobian = scaled_jacobian(std::span(corners).first(vertices.size()));
-    const Vec3 normal = vertices.size() == 4 ? (corners[2] - corners[0]).cross(corners[3] - corners[1])
-                                             : (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    return normal.dot(surface_.outward(centre)) < 0 ? std::min(jacobian, 0.0) - 1 : jacobian;
+  };
+  Shape shape(std::size_t f) const {
+    Shape s;
+    for (const std::int32_t v : face(f)) s.centre += s.corners[s.count++] = patch_.positions[v];
+    s.centre /= static_cast<double>(s.count);
+    return s;
   }
 
+  static double quality(const Shape& s, const Vec3& outward) {
+    const double jacobian = scaled_jacobian(std::span(s.corners).first(s.count));
+    const Vec3 normal = s.count == 4 ? (s.corners[2] - s.corners[0]).cross(s.corners[3] - s.corners[1])
+                                     : (s.corners[1] - s.corners[0]).cross(s.corners[2] - s.corners[0]);
+    return normal.dot(outward) < 0 ? std::min(jacobian, 0.0) - 1 : jacobian;
+  }
+  // Outward directions at the faces around a vertex, before it is moved about: asking anew for each place
+  // tried costs four times as much and tells the same.
+  void ask_outward(std::int32_t v) {
+    outward_.clear();
+    for (const std::size_t f : faces_[v]) outward_.push_back(surface_.outward(shape(f).centre));
+  }
+
+  // In sum over the faces around. A cube weighs the worst most, and still gains from all; what is off the
+  // surface by more than the gate allows for most faces counts, too (ours).
   double badness_around(std::int32_t v) const {
-    double worst = 0, sum = 0;
-    for (const std::size_t f : faces_[v]) {
-      const double bad = 1 - quality(f);
-      worst = std::max(worst, bad);
-      sum += bad * bad * bad;  // ours: a cube weighs the worst most, and still gains from all
+    double sum = 0;
+    for (std::size_t k = 0; k < faces_[v].size(); ++k) {
+      const Shape s = shape(faces_[v][k]);
+      const double bad = 1 - quality(s, outward_[k]), off = std::max(surface_.off(s.centre) - kOff, 0.0);
+      sum += std::pow(bad, pass_.power) + pass_.rest * kOffWeight * off * off;
     }
-    return aim_ == Aim::Mean ? sum : worst;
+    return sum;
   }
 
-  std::set<std::int32_t> poor_vertices() const {
-    std::set<std::int32_t> poor;
-    for (std::size_t f = 0; f < face_count(); ++f)
-      if (quality(f) < (aim_ == Aim::Mean ? kGoodMean : kGoodWorst))
-        for (const std::int32_t v : face(f))
-          if (static_cast<std::size_t>(v) >= patch_.fixed) poor.insert(v);
-    return poor;
-  }
-
-  // The faces' mean normal at a vertex, and the mean length of its edges.
-  std::pair<Vec3, double> frame(std::int32_t v) const {
-    Vec3 normal = Vec3::Zero();
+  // Two unit tangents at a vertex, the middle of its neighbours, and the mean length of its edges; none where
+  // its faces have no direction.
+  struct Frame {
+    Vec3 x, y, middle;
+    double length;
+  };
+  std::optional<Frame> frame(std::int32_t v) const {
+    Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
     double length = 0;
     int edges = 0;
     for (const std::size_t f : faces_[v]) {
       const auto vertices = face(f);
-      const std::size_t k =
-          static_cast<std::size_t>(std::find(vertices.begin(), vertices.end(), v) - vertices.begin());
-      const Vec3 next = patch_.positions[vertices[(k + 1) % vertices.size()]] - patch_.positions[v];
-      const Vec3 last =
-          patch_.positions[vertices[(k + vertices.size() - 1) % vertices.size()]] - patch_.positions[v];
+      const std::size_t k = place_in(f, v), n = vertices.size();
+      const Vec3 next = patch_.positions[vertices[(k + 1) % n]] - patch_.positions[v];
+      const Vec3 last = patch_.positions[vertices[(k + n - 1) % n]] - patch_.positions[v];
       normal += next.cross(last);
+      middle += next + last;
       length += next.norm() + last.norm();
       edges += 2;
     }
-    return {normal.norm() > 0 ? Vec3(normal.normalized()) : Vec3(Vec3::UnitZ()), length / edges};
+    normal = normal.norm() > 0 ? Vec3(normal.normalized()) : Vec3(Vec3::UnitZ());
+    const auto ring = face(faces_[v].front());
+    const Vec3 along =
+        patch_.positions[ring[(place_in(faces_[v].front(), v) + 1) % ring.size()]] - patch_.positions[v];
+    const Vec3 x = (along - along.dot(normal) * normal).normalized();
+    if (!x.allFinite()) return std::nullopt;
+    return Frame{x, normal.cross(x), patch_.positions[v] + middle / edges, length / edges};
   }
 
-  void improve(std::int32_t v, double step) {
+  std::size_t place_in(std::size_t f, std::int32_t v) const {
+    const auto vertices = face(f);
+    return static_cast<std::size_t>(std::find(vertices.begin(), vertices.end(), v) - vertices.begin());
+  }
+
+  // Half a damped Newton step along either tangent, at most `step` edges long, drawn towards the middle of
+  // the vertex's neighbours where that costs little.
+  void descend(std::int32_t v, double step) {
+    const auto at = frame(v);
+    if (!at) return;
+    ask_outward(v);
     const Vec3 start = patch_.positions[v];
-    const auto [normal, length] = frame(v);
-    const auto& ring = face(faces_[v].front());
-    const std::size_t k = static_cast<std::size_t>(std::find(ring.begin(), ring.end(), v) - ring.begin());
-    const Vec3 along = patch_.positions[ring[(k + 1) % ring.size()]] - start;
-    const Vec3 x = (along - along.dot(normal) * normal).normalized(), y = normal.cross(x);
-    if (!x.allFinite()) return;
-    double best = badness_around(v);
-    Vec3 place = start;
-    for (int d = 0; d < kDirections; ++d) {
-      const double angle = 2 * std::numbers::pi * d / kDirections;
-      patch_.positions[v] =
-          surface_.project(start + step * length * (std::cos(angle) * x + std::sin(angle) * y));
-      const double found = badness_around(v);
-      if (found < (1 - kGain) * best) best = found, place = patch_.positions[v];
+    const double reach = step * at->length;
+    const auto badness = [&](const Vec3& place) {
+      patch_.positions[v] = place;
+      return badness_around(v) +
+             pass_.rest * kEvenWeight * (place - at->middle).squaredNorm() / (at->length * at->length);
+    };
+    const double here = badness(start);
+    Vec3 move = Vec3::Zero();
+    for (const Vec3& axis : {at->x, at->y}) {
+      const double ahead = badness(start + reach * axis), behind = badness(start - reach * axis);
+      const double slope = (ahead - behind) / 2, curvature = ahead + behind - 2 * here;
+      move -= slope / (std::abs(curvature) + std::abs(slope) + pass_.rest * kFlat) * reach * axis;
     }
-    patch_.positions[v] = place;
+    patch_.positions[v] = surface_.project(start + kDamping * move);
   }
 
   QuadPatch& patch_;
   const WantedSurface& surface_;
   std::vector<std::vector<std::size_t>> faces_;
-  Aim aim_ = Aim::Mean;
+  Pass pass_ = kPasses[0];
+  std::vector<Vec3> outward_;  // of the faces around the vertex at work
 };
 
 }  // namespace
 
 void raise_worst(QuadPatch& patch, const WantedSurface& surface) {
-  Search search(patch, surface);
-  search.run(Aim::Mean);
-  search.run(Aim::Worst);
+  Search(patch, surface).run();
 }
 
 }  // namespace skinforge
