@@ -109,6 +109,7 @@ struct JunctionReport {
   std::optional<Distribution> deviation;
   std::optional<Distribution> edge_length_ratio;
   std::optional<Distribution> border_dihedral;
+  std::optional<Distribution> border_normal_step;
   std::optional<ColorStepReport> border_color_step;
 };
 

@@ -156,6 +156,9 @@ void describe(const JunctionReport& j, F& f) {
     "Edges of the first row over the neighbouring border edges");
   f("border_dihedral", j.border_dihedral, "deg",
     "Angle between the normals of kept and new faces across the border; 0 = flat");
+  f("border_normal_step", j.border_normal_step, "deg",
+    "Angle between the shading normals of kept and new faces at both ends of each border edge; 0 = no seam "
+    "to be seen, more where the input is hard or flat there");
   f("border_color_step", j.border_color_step, "1/255",
     "Difference of base colour across the border as an engine shows it; null without new faces");
 }
