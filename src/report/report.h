@@ -167,6 +167,7 @@ struct ClipReport {
 
 struct Report {
   std::int64_t report_version = 1;
+  bool preview = false;
   ToolReport tool;
   RecipeReport recipe;
   std::vector<InputReport> inputs;

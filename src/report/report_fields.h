@@ -232,6 +232,8 @@ template <class F>
 void describe(const Report& r, F& f) {
   f("report_version", r.report_version, "count",
     "Version of this format; raised when a property changes its meaning");
+  f("preview", r.preview, "yes or no",
+    "Whether this is of a preview: parts side by side, not joined; what is not measured then is empty or 0");
   f("tool", r.tool, "object", "What wrote this report");
   f("recipe", r.recipe, "object", "What was built");
   f("inputs", r.inputs, "list", "The characters that went in, in the recipe's order");
