@@ -209,7 +209,10 @@ Json operation() {
   const auto surface_without = [](Json patterns) {
     return Json{{"properties", {{"surface", {{"properties", std::move(patterns)}}}}}};
   };
-  const Json no_at = {{"not", {{"required", {"at"}}}}}, no_from = {{"not", {{"required", {"from"}}}}};
+  const auto without = [](const char* side) {
+    return Json{{"not", {{"type", "object"}, {"required", Json::array({side})}}}};
+  };
+  const Json no_at = without("at"), no_from = without("from");
   schema["allOf"] = {
       if_operation({"replace", "attach"}, {{"required", {"from", "joint"}}}),
       if_operation({"replace"}, blend_is("blend")),
