@@ -11,7 +11,6 @@ recipe's junctions. A rung that is not the best says why in the last column.
 
 import argparse
 import json
-import math
 import os
 import subprocess
 import sys
@@ -36,7 +35,7 @@ def number(value, key, form="{:.2f}"):
 
 def line(recipe, junction, seconds):
     jacobian, deviation, dihedral = (junction[key] for key in ("scaled_jacobian", "deviation", "border_dihedral"))
-    angle = f"{math.degrees(dihedral['mean']):.0f}" if dihedral else "-"
+    angle = number(dihedral, "mean", "{:.0f}")
     cuts = junction["self_intersections"]
     return [f"{recipe} {junction['operation']}", "/".join(map(str, junction["border_loops"])), junction["rung"],
             junction["quads"], junction["triangles"], junction["irregular_vertices"], number(jacobian, "min"),

@@ -73,11 +73,12 @@ void build_session(const CommandLine& line, Session& session, Outcome& outcome) 
   if (is_ok) {
     std::vector<fs::path> inputs;
     collect_inputs(session.recipe(), inputs);
-    const auto files = outputs(session.recipe(), session.engine(), line.report);
+    const auto files = line.preview ? preview_outputs(session.recipe(), line.report)
+                                    : outputs(session.recipe(), session.engine(), line.report);
     outcome.files = publish(session.engine(), files, outcome.folder, inputs);
   }
   outcome.stages = session.engine().results();
-  const bool wants_timings = is_ok && line.report != ReportLevel::None;
+  const bool wants_timings = is_ok && !line.preview && line.report != ReportLevel::None;
   if (wants_timings && (has_run(outcome.stages) || !fs::exists(outcome.folder / "timings.json")))
     write_timings(outcome.stages, outcome.folder);
   session.tell_trouble();

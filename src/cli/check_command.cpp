@@ -11,13 +11,14 @@ namespace skinforge {
 using nlohmann::json;
 
 namespace {
-// The recipe, its files, its clips, and every joint: grafting the skeletons meets them all.
+// The recipe, its files, its clips, every joint (grafting the skeletons meets them all), and what the cuts
+// leave of the surfaces.
 ExitCode check_recipe(const CommandLine& line, const std::string& path, Console& console, json& result) {
   Session session(line, path, console);
   result["name"] = session.recipe().name;
   if (session.import()) {
     session.add_grafts();
-    session.run_for({ArtifactNames().graft()});
+    session.run_for({ArtifactNames().graft(), ArtifactNames().selection()});
   }
   session.tell_trouble();
   const auto failure = session.failure();

@@ -207,11 +207,15 @@ class Parser {
         ->default_str("out/<name>")
         ->group("Output");
     add_report_option(build);
+    build->add_flag(
+        "--preview", line_.preview,
+        "Parts cut, placed, skinned and animated side by side, not joined: NAME-preview.glb in no time");
     build->add_flag("-k,--keep-going", line_.keep_going,
                     "Go on with the other recipes when one fails (status 6)");
     add_work_options(build);
 
-    CLI::App* check = add_verb(&app_, "check", "Check recipes: keys, files, joints, clips", Verb::Check);
+    CLI::App* check =
+        add_verb(&app_, "check", "Check recipes: keys, files, joints, clips, parts left behind", Verb::Check);
     add_recipes(check);
     add_work_options(check);
 

@@ -40,7 +40,8 @@ struct CommandLine {
   ReportLevel report{};           ///< as the parser sets it: Full unless asked otherwise
   std::string schema = "recipe";  ///< or "report"
   bool keep_going = false;
-  std::string help;  ///< text for Verb::Help
+  bool preview = false;  ///< build: parts side by side, at once
+  std::string help;      ///< text for Verb::Help
 };
 
 /// Reads the arguments (without the program's name). Throws Error (Usage) for everything that is wrong, with

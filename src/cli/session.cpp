@@ -67,7 +67,10 @@ bool Session::plan_import() {
 }
 
 void Session::add_grafts() {
-  skinforge::add_grafts(recipe_, engine_, line_.report);
+  if (line_.preview)
+    add_preview(recipe_, engine_);
+  else
+    skinforge::add_grafts(recipe_, engine_, line_.report);
 }
 
 bool Session::run() {

@@ -17,6 +17,7 @@ constexpr int kRecipeVersion = 1;
 constexpr std::size_t kMaxOperations = 10000;  // ours: refuses nonsense, not work
 constexpr std::size_t kMaxIncludeDepth = 16;   // ours: recipes in recipes in recipes
 constexpr double kMaxLength = 1e9;             // ours: metres and factors; keeps sums and products finite
+constexpr double kLeastVoxel = 1e-6, kMostVoxel = 1e6;  // ours: metres; beside any character
 
 std::string extension_of(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -73,8 +74,8 @@ class RecipeReader {
     recipe_.name = safe_name(object.at("name"));
     read_inputs(object.at("inputs"));
     recipe_.base = input_name(object.at("base"));
+    if (const auto surface = object.find("surface")) read_surface(*surface, recipe_.surface);
     if (const auto ops = object.find("ops")) read_operations(*ops);
-    if (const auto surface = object.find("surface")) recipe_.surface = read_surface(*surface);
     if (const auto animation = object.find("animation")) recipe_.animation = read_animation(*animation);
     recipe_.output.glb = recipe_.name + ".glb";
     if (const auto output = object.find("output")) read_output(*output);
@@ -182,8 +183,9 @@ class RecipeReader {
   }
 
   RecipeOperation read_operation(const ValueReader& reader) const {
-    const ObjectReader object = reader.object({"op", "at", "from", "joint", "place", "blend"});
+    const ObjectReader object = reader.object({"op", "at", "from", "joint", "place", "blend", "surface"});
     RecipeOperation operation;
+    operation.surface = recipe_.surface;
     operation.kind = object.at("op").choice<OperationKind>({{"replace", OperationKind::Replace},
                                                             {"attach", OperationKind::Attach},
                                                             {"remove", OperationKind::Remove},
@@ -198,6 +200,10 @@ class RecipeReader {
       read_donor(object, operation);
     else
       expect_no_donor(object);
+    if (const auto surface = object.find("surface")) {
+      expect_meaning(*surface, operation.kind);
+      read_surface(*surface, operation.surface);
+    }
     return operation;
   }
 
@@ -268,19 +274,68 @@ class RecipeReader {
       reader.fail_expected(fmt::format("a number above 0 and up to {}", kMaxLength));
   }
 
-  static SurfaceOptions read_surface(const ValueReader& reader) {
-    const ObjectReader object = reader.object({"voxel_factor", "presence_smoothing", "keep_or_drop"});
-    SurfaceOptions options;
-    if (const auto factor = object.find("voxel_factor")) options.voxel_factor = factor->number(0.1, 4);
+  // Keys of an operation's "surface" that this kind of operation has no use for.
+  static void expect_meaning(const ValueReader& reader, OperationKind kind) {
+    const bool has_donor = kind == OperationKind::Replace || kind == OperationKind::Attach;
+    const bool has_parent = kind != OperationKind::Detach;
+    for (const auto& [key, value] : reader.members()) {
+      const bool is_two_sided = key == "hardness" || key == "include_parent";
+      const bool is_of_field = key == "hardness" || key == "voxel" || key == "voxel_factor";
+      if ((is_of_field && !has_donor) || (key == "include_parent" && !has_parent))
+        value.fail(fmt::format("\"{}\" has no meaning here: this operation blends nothing", key));
+      if (!is_two_sided || !value.is_object()) continue;
+      for (const auto& [side, of_side] : value.members()) {
+        if (side == "from" && !has_donor)
+          of_side.fail("\"from\" has no meaning here: this operation takes nothing from an input");
+        if (side == "at" && kind == OperationKind::Attach)
+          of_side.fail("\"at\" has no meaning here: an attachment does not cut the character");
+      }
+    }
+  }
+
+  static void read_surface(const ValueReader& reader, SurfaceOptions& options) {
+    const ObjectReader object = reader.object({"voxel_factor", "voxel", "presence_smoothing", "hardness",
+                                               "include_parent", "keep_or_drop", "elements", "smoothing"});
+    read_voxel(object, options);
     if (const auto passes = object.find("presence_smoothing"))
       options.presence_smoothing = passes->integer(0, 99);
+    if (const auto hardness = object.find("hardness"))
+      read_sides(*hardness, options.hardness, "a number from -0.9 to 0.9",
+                 [](const ValueReader& side) { return side.number(-0.9, 0.9); });
+    if (const auto parent = object.find("include_parent"))
+      read_sides(*parent, options.include_parent, "true or false",
+                 [](const ValueReader& side) { return side.boolean(); });
     if (const auto rule = object.find("keep_or_drop")) {
       const ObjectReader parts = rule->object({"variance", "mean"});
       if (const auto variance = parts.find("variance"))
         options.keep_or_drop.variance = variance->number(0, 0.25);
       if (const auto mean = parts.find("mean")) options.keep_or_drop.mean = mean->number(0, 1);
     }
-    return options;
+    if (const auto elements = object.find("elements"))
+      options.elements = elements->choice<Elements>(
+          {{"auto", Elements::Auto}, {"quads", Elements::Quads}, {"triangles", Elements::Triangles}});
+    if (const auto rounds = object.find("smoothing")) options.smoothing = rounds->integer(0, 99);
+  }
+
+  static void read_voxel(const ObjectReader& object, SurfaceOptions& options) {
+    const auto factor = object.find("voxel_factor"), edge = object.find("voxel");
+    if (factor && edge) edge->fail("expected one of \"voxel\" and \"voxel_factor\"");
+    if (factor) options.voxel_factor = factor->number(0.1, 4), options.voxel = 0;
+    if (edge) options.voxel = edge->number(kLeastVoxel, kMostVoxel);
+  }
+
+  // One value for both sides, or { "at": ..., "from": ... }; a side that is not named keeps what it has.
+  template <class T, class Read>
+  static void read_sides(const ValueReader& reader, Sides<T>& sides, const char* wanted, const Read& read) {
+    if (reader.is_array() || reader.is_string())
+      reader.fail_expected(fmt::format("{}, or an object with \"at\" and \"from\"", wanted));
+    if (!reader.is_object()) {
+      sides.at = sides.from = read(reader);
+      return;
+    }
+    const ObjectReader object = reader.object({"at", "from"});
+    if (const auto at = object.find("at")) sides.at = read(*at);
+    if (const auto from = object.find("from")) sides.from = read(*from);
   }
 
   static AnimationOptions read_animation(const ValueReader& reader) {

@@ -67,21 +67,6 @@ struct Placement {
   }
 };
 
-struct RecipeOperation {
-  OperationKind kind = OperationKind::Replace;
-  std::vector<std::string> at;  ///< joints of the character as it stands; at least one, each once
-  std::string from;             ///< input; replace and attach
-  std::string joint;            ///< joint of that input; replace and attach
-  Placement place;
-  Blend blend = Blend::Auto;
-
-  auto operator<=>(const RecipeOperation&) const = default;
-  template <class Archive>
-  friend void fields(Archive& a, RecipeOperation& o) {
-    a(o.kind, o.at, o.from, o.joint, o.place, o.blend);
-  }
-};
-
 /// Components that are neither clearly kept nor clearly gone are decided as wholes (SkinMixer Sec. 6).
 struct KeepOrDrop {
   double variance = 0.04;  ///< a component whose presence varies less is decided as a whole; [0, 0.25]
@@ -94,19 +79,64 @@ struct KeepOrDrop {
   }
 };
 
+/// A value for each side of an operation: the character as it stands, and the input the part comes from.
+template <class T>
+struct Sides {
+  T at{};
+  T from{};
+
+  auto operator<=>(const Sides&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, Sides& s) {
+    a(s.at, s.from);
+  }
+};
+
+/// What the faces of a junction may be.
+enum class Elements : std::uint8_t {
+  Auto,      ///< quads wherever they are good, else triangles
+  Quads,     ///< the same, and triangles are paired however poor the quad is
+  Triangles  ///< triangles only
+};
+
+/// How the junction of an operation is made. The recipe's own "surface" gives the defaults of all operations.
 struct SurfaceOptions {
   /// Voxel edge over the shorter mean edge length; [0.1, 4]. Departure: the paper (Sec. 6.1) takes 0.8, at
   /// which thin limbs lost their junction.
   double voxel_factor = 0.5;
+  double voxel = 0;  ///< voxel edge in metres, instead of the factor; 0 for none, else [1e-6, 1e6]
   /// Laplacian passes over the presence; [0, 99]. Departure: the paper (Sec. 6) makes one, the program of its
   /// authors ten.
   int presence_smoothing = 10;
+  /// How long each side holds its own shape against the other; [-0.9, 0.9], 0 as the weights say.
+  Sides<double> hardness;
+  /// Whether the blended region takes in what hangs on the parent of the joint, too.
+  Sides<bool> include_parent;
   KeepOrDrop keep_or_drop;
+  Elements elements = Elements::Auto;
+  int smoothing = 0;  ///< further Laplacian rounds over the new faces; [0, 99]
 
   auto operator<=>(const SurfaceOptions&) const = default;
   template <class Archive>
   friend void fields(Archive& a, SurfaceOptions& s) {
-    a(s.voxel_factor, s.presence_smoothing, s.keep_or_drop);
+    a(s.voxel_factor, s.voxel, s.presence_smoothing, s.hardness, s.include_parent, s.keep_or_drop, s.elements,
+      s.smoothing);
+  }
+};
+
+struct RecipeOperation {
+  OperationKind kind = OperationKind::Replace;
+  std::vector<std::string> at;  ///< joints of the character as it stands; at least one, each once
+  std::string from;             ///< input; replace and attach
+  std::string joint;            ///< joint of that input; replace and attach
+  Placement place;
+  Blend blend = Blend::Auto;
+  SurfaceOptions surface;  ///< the recipe's, where the operation does not say otherwise
+
+  auto operator<=>(const RecipeOperation&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, RecipeOperation& o) {
+    a(o.kind, o.at, o.from, o.joint, o.place, o.blend, o.surface);
   }
 };
 

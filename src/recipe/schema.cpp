@@ -117,6 +117,59 @@ Json joints() {
       {"anyOf", {text(), {{"type", "array"}, {"items", text()}, {"minItems", 1}, {"uniqueItems", true}}}}};
 }
 
+// `with_defaults`: of the recipe; an operation takes the recipe's where it does not say otherwise.
+Json surface(bool with_defaults) {
+  const SurfaceOptions defaults;
+  const auto preset = [&](Json schema, Json value) {
+    return with_defaults ? with_default(std::move(schema), std::move(value)) : schema;
+  };
+  const auto sides = [&](const Json& side, const auto& value, const Json& example) {
+    const Json both = closed_object(
+        {{"at", described("Of the character as it stands.", side, Json::array({example}))},
+         {"from", described("Of the input that the part comes from.", side, Json::array({example}))}});
+    return preset({{"anyOf", {side, both}}}, {{"at", value.at}, {"from", value.from}});
+  };
+  const auto rounds = [&](const char* unit, int value) {
+    return preset({{"type", "integer"}, {"minimum", 0}, {"maximum", 99}, {"unit", unit}}, value);
+  };
+  const Json rule = closed_object({
+      {"variance", described("A component whose presence varies less is decided as a whole.",
+                             preset(number(0, 0.25, "1"), defaults.keep_or_drop.variance), {0.04})},
+      {"mean", described("Such a component is kept when its mean presence reaches this.",
+                         preset(number(0, 1, "1"), defaults.keep_or_drop.mean), {0.5})},
+  });
+  Json schema = closed_object({
+      {"voxel_factor", described("Voxel edge over the shorter mean edge length of the two meshes. The paper "
+                                 "(Sec. 6.1) takes 0.8, at which thin limbs lost their junction.",
+                                 preset(number(0.1, 4, "factor"), defaults.voxel_factor), {0.8})},
+      {"voxel", described("Voxel edge itself, instead of the factor.", number(1e-6, 1e6, "metres"), {0.02})},
+      {"presence_smoothing",
+       described("Laplacian passes over the presence. The paper (Sec. 6) makes one, the "
+                 "program of its authors ten.",
+                 rounds("passes", defaults.presence_smoothing), {10})},
+      {"hardness",
+       described("How long each side holds its own shape where they blend: above 0 longer, below 0 shorter. "
+                 "One number for both sides, or one for each: `at` is the character, `from` the input.",
+                 sides(number(-0.9, 0.9, "1"), defaults.hardness, 0.3),
+                 {0.3, {{"at", 0.5}, {"from", -0.2}}})},
+      {"include_parent",
+       described("Let the blend take in what hangs on the parent of the joint, too: of the character it "
+                 "goes, of the input it comes along. For both sides, or for each.",
+                 sides({{"type", "boolean"}}, defaults.include_parent, true), {true, {{"at", true}}})},
+      {"keep_or_drop", described("Rule for components that are neither clearly kept nor clearly gone.", rule,
+                                 {{{"variance", 0.04}, {"mean", 0.5}}})},
+      {"elements",
+       described("Faces of the junction. auto: quads wherever they are good; quads: triangles that are left "
+                 "are paired however poor the quad; triangles: triangles only.",
+                 preset({{"type", "string"}, {"enum", {"auto", "quads", "triangles"}}}, "auto"), {"auto"})},
+      {"smoothing", described("Further Laplacian rounds over the new faces; their borders stay. Fewer are "
+                              "made where the faces would fold or cut something.",
+                              rounds("rounds", defaults.smoothing), {5})},
+  });
+  schema["not"] = {{"required", {"voxel", "voxel_factor"}}};
+  return schema;
+}
+
 Json if_operation(Json kinds, Json consequence) {
   return {{"if", {{"properties", {{"op", {{"enum", std::move(kinds)}}}}}}}, {"then", std::move(consequence)}};
 }
@@ -139,6 +192,9 @@ Json operation() {
                               "auto is the one that fits.",
                               {{"type", "string"}, {"enum", {"auto", "blend", "union"}}, {"default", "auto"}},
                               {"auto"})},
+          {"surface", described("How this operation's junction is made, where it differs from the recipe's "
+                                "`surface`.",
+                                surface(false), {{{"hardness", 0.3}, {"elements", "triangles"}}})},
       },
       {"op", "at"});
   const Json one_joint = {{"anyOf", {text(), {{"type", "array"}, {"maxItems", 1}}}}};
@@ -150,38 +206,25 @@ Json operation() {
   const auto blend_is = [](const char* kind) {
     return Json{{"properties", {{"blend", {{"enum", {"auto", kind}}}}}}};
   };
-  schema["allOf"] = {if_operation({"replace", "attach"}, {{"required", {"from", "joint"}}}),
-                     if_operation({"replace"}, blend_is("blend")),
-                     if_operation({"attach"}, blend_is("union")),
-                     if_operation({"attach", "detach"}, {{"properties", {{"at", one_joint}}}}),
-                     if_operation({"remove", "detach"}, {{"not", donor_keys}})};
+  const auto surface_without = [](Json patterns) {
+    return Json{{"properties", {{"surface", {{"properties", std::move(patterns)}}}}}};
+  };
+  const auto without = [](const char* side) {
+    return Json{{"not", {{"type", "object"}, {"required", Json::array({side})}}}};
+  };
+  const Json no_at = without("at"), no_from = without("from");
+  schema["allOf"] = {
+      if_operation({"replace", "attach"}, {{"required", {"from", "joint"}}}),
+      if_operation({"replace"}, blend_is("blend")),
+      if_operation({"attach"}, blend_is("union")),
+      if_operation({"attach", "detach"}, {{"properties", {{"at", one_joint}}}}),
+      if_operation({"remove", "detach"}, {{"not", donor_keys}}),
+      if_operation({"attach"}, surface_without({{"hardness", no_at}, {"include_parent", no_at}})),
+      if_operation({"remove"}, surface_without({{"include_parent", no_from}})),
+      if_operation({"remove", "detach"},
+                   surface_without({{"hardness", false}, {"voxel", false}, {"voxel_factor", false}})),
+      if_operation({"detach"}, surface_without({{"include_parent", false}}))};
   return schema;
-}
-
-Json surface() {
-  const SurfaceOptions defaults;
-  const Json rule = closed_object({
-      {"variance", described("A component whose presence varies less is decided as a whole.",
-                             with_default(number(0, 0.25, "1"), defaults.keep_or_drop.variance), {0.04})},
-      {"mean", described("Such a component is kept when its mean presence reaches this.",
-                         with_default(number(0, 1, "1"), defaults.keep_or_drop.mean), {0.5})},
-  });
-  return closed_object({
-      {"voxel_factor", described("Voxel edge over the shorter mean edge length of the two meshes. The paper "
-                                 "(Sec. 6.1) takes 0.8, at which thin limbs lost their junction.",
-                                 with_default(number(0.1, 4, "factor"), defaults.voxel_factor), {0.8})},
-      {"presence_smoothing",
-       described("Laplacian passes over the presence. The paper (Sec. 6) makes one, the "
-                 "program of its authors ten.",
-                 {{"type", "integer"},
-                  {"minimum", 0},
-                  {"maximum", 99},
-                  {"default", defaults.presence_smoothing},
-                  {"unit", "passes"}},
-                 {10})},
-      {"keep_or_drop", described("Rule for components that are neither clearly kept nor clearly gone.", rule,
-                                 {{{"variance", 0.04}, {"mean", 0.5}}})},
-  });
 }
 
 Json animation() {
@@ -231,7 +274,8 @@ std::string recipe_schema() {
                "Operations, in order.",
                {{"type", "array"}, {"items", operation()}, {"maxItems", 10000}, {"default", Json::array()}},
                {{{{"op", "replace"}, {"at", "Neck1"}, {"from", "man"}, {"joint", "Spine"}}}})},
-          {"surface", described("How the junction's surface is made.", surface(), {{{"voxel_factor", 0.8}}})},
+          {"surface",
+           described("How the junction's surface is made.", surface(true), {{{"voxel_factor", 0.8}}})},
           {"animation",
            described("Which clips, and how they are completed.", animation(), {{{"clips", "all"}}})},
           {"output",

@@ -109,6 +109,7 @@ struct JunctionReport {
   std::optional<Distribution> deviation;
   std::optional<Distribution> edge_length_ratio;
   std::optional<Distribution> border_dihedral;
+  std::optional<Distribution> border_normal_step;
   std::optional<ColorStepReport> border_color_step;
 };
 
@@ -166,6 +167,7 @@ struct ClipReport {
 
 struct Report {
   std::int64_t report_version = 1;
+  bool preview = false;
   ToolReport tool;
   RecipeReport recipe;
   std::vector<InputReport> inputs;

@@ -156,6 +156,9 @@ void describe(const JunctionReport& j, F& f) {
     "Edges of the first row over the neighbouring border edges");
   f("border_dihedral", j.border_dihedral, "deg",
     "Angle between the normals of kept and new faces across the border; 0 = flat");
+  f("border_normal_step", j.border_normal_step, "deg",
+    "Angle between the shading normals of kept and new faces at both ends of each border edge; 0 = no seam "
+    "to be seen, more where the input is hard or flat there");
   f("border_color_step", j.border_color_step, "1/255",
     "Difference of base colour across the border as an engine shows it; null without new faces");
 }
@@ -229,6 +232,8 @@ template <class F>
 void describe(const Report& r, F& f) {
   f("report_version", r.report_version, "count",
     "Version of this format; raised when a property changes its meaning");
+  f("preview", r.preview, "yes or no",
+    "Whether this is of a preview: parts side by side, not joined; what is not measured then is empty or 0");
   f("tool", r.tool, "object", "What wrote this report");
   f("recipe", r.recipe, "object", "What was built");
   f("inputs", r.inputs, "list", "The characters that went in, in the recipe's order");

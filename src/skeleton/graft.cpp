@@ -171,6 +171,11 @@ GraftSite GraftBuilder::open_site(const GraftOperation& operation, std::span<con
   for (const JointId joint : at) {
     const JointOrigin& origin = result_.origins[joint.index()];
     site.at.push_back({origin.source, origin.joint});
+    const JointId parent = result_.skeleton[joint].parent;
+    if (!parent.is_valid()) continue;
+    const std::pair above{result_.origins[parent.index()].source, result_.origins[parent.index()].joint};
+    if (std::find(site.parents.begin(), site.parents.end(), above) == site.parents.end())
+      site.parents.push_back(above);
   }
   return site;
 }

@@ -63,10 +63,12 @@ struct GraftSite {
   std::vector<std::pair<SourceId, JointId>>
       removed;  ///< input joints that this operation took away from the result
   std::vector<std::pair<SourceId, JointId>> at;  ///< the `at` joints, as input joints
+  std::vector<std::pair<SourceId, JointId>>
+      parents;  ///< the parents of the `at` joints as the operation met them, as input joints; each once
 
   template <class Archive>
   friend void fields(Archive& a, GraftSite& s) {
-    a(s.kind, s.host, s.donor, s.fused, s.removed, s.at);
+    a(s.kind, s.host, s.donor, s.fused, s.removed, s.at, s.parents);
   }
 };
 

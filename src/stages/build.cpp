@@ -167,6 +167,20 @@ void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const A
   if (level == ReportLevel::Full) engine.add(make_pictures_stage(names, recipe, clips));
 }
 
+void add_preview(const Recipe& recipe, Engine& engine, const ArtifactNames& names) {
+  const std::vector<ClipRequest> clips = clip_requests(recipe, engine, names);
+  engine.add(make_place_stage(names, recipe));
+  engine.add(make_graft_skeleton_stage(names, recipe));
+  engine.add(make_map_joints_stage(names, recipe));
+  engine.add(make_preview_stage(names, recipe, clips));
+}
+
+std::vector<OutputFile> preview_outputs(const Recipe& recipe, ReportLevel level, const ArtifactNames& names) {
+  std::vector<OutputFile> files{{preview_name(recipe), names.preview_glb()}};
+  if (level != ReportLevel::None) files.push_back({"report-preview.json", names.preview_report()});
+  return files;
+}
+
 std::vector<OutputFile> outputs(const Recipe& recipe, Engine& engine, ReportLevel level,
                                 const ArtifactNames& names) {
   std::vector<OutputFile> files;

@@ -36,6 +36,13 @@ bool knows_contents(const Recipe& recipe, const Engine& engine, const ArtifactNa
 /// Everything behind the imports, from what they found. Throws Error (Usage) for an unknown clip.
 void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const ArtifactNames& names = {});
 
+/// In the place of `add_grafts`: the stages of a preview.
+void add_preview(const Recipe& recipe, Engine& engine, const ArtifactNames& names = {});
+
+/// The files a preview writes, relative to the output folder; their names differ from those of a build.
+std::vector<OutputFile> preview_outputs(const Recipe& recipe, ReportLevel level,
+                                        const ArtifactNames& names = {});
+
 /// The files a build writes, relative to the output folder.
 std::vector<OutputFile> outputs(const Recipe& recipe, Engine& engine, ReportLevel level,
                                 const ArtifactNames& names = {});

@@ -15,7 +15,7 @@ class GraftSkeleton final : public Stage {
 
   StageInfo info() const override {
     return {.name = "graft_skeleton",
-            .version = 1,
+            .version = 2,
             .reads = joined(character_names(names_, inputs_), {names_.placement()}),
             .writes = {names_.graft()}};
   }

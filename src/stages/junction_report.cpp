@@ -1,5 +1,7 @@
 #include "stages/junction_report.h"
 
+#include <numbers>
+
 #include "report/distribution.h"
 #include "surface/junction_measures.h"
 
@@ -8,6 +10,11 @@ namespace {
 
 std::int64_t wide(std::size_t n) {
   return static_cast<std::int64_t>(n);
+}
+
+std::vector<double> in_degrees(std::vector<double> radians) {
+  for (double& angle : radians) angle *= 180 / std::numbers::pi;
+  return radians;
 }
 
 const char* name_of(JunctionRung rung) {
@@ -55,7 +62,8 @@ JunctionReport report_junction(const SurfaceResult& surface, std::size_t site, c
   r.deviation = distribution_of(m.deviation);
   r.edge_length_ratio = distribution_of(m.edge_length_ratio);
   if (color.edges > 0) r.border_color_step = {wide(color.edges), color.mean, color.p95, color.largest};
-  r.border_dihedral = distribution_of(m.border_dihedral);
+  r.border_dihedral = distribution_of(in_degrees(m.border_dihedral));
+  r.border_normal_step = distribution_of(in_degrees(m.border_normal_step));
   return r;
 }
 

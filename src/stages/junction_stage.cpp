@@ -4,6 +4,8 @@
 
 #include "stages/site_solids.h"
 #include "stages/stages.h"
+#include "stages/surface_options.h"
+#include "surface/junction_smoothing.h"
 
 namespace skinforge {
 namespace {
@@ -27,7 +29,12 @@ struct Round {
 class MakeJunctions final : public Stage {
  public:
   MakeJunctions(ArtifactNames names, const Recipe& recipe)
-      : names_(std::move(names)), site_count_(recipe.operations.size()) {}
+      : names_(std::move(names)), site_count_(recipe.operations.size()) {
+    for (const RecipeOperation& operation : recipe.operations) {
+      elements_.push_back(junction_elements(operation.surface));
+      smoothing_.push_back(operation.surface.smoothing);
+    }
+  }
 
   StageInfo info() const override {
     StageInfo info{.name = "junction",
@@ -37,7 +44,11 @@ class MakeJunctions final : public Stage {
     for (std::size_t k = 0; k < site_count_; ++k) info.reads.push_back(names_.field(k));
     return info;
   }
-  void add_to_key(Hasher& key) const override { key.add_value("options", options_); }
+  void add_to_key(Hasher& key) const override {
+    key.add_value("options", options_);
+    key.add_value("elements", elements_);
+    key.add_value("smoothing", smoothing_);
+  }
 
   void run(const StageInput& in, StageOutput& out, IssueSink& issues) const override {
     const auto& placed = in.get<std::vector<PolygonMesh>>(names_.placed());
@@ -49,10 +60,11 @@ class MakeJunctions final : public Stage {
       discard_moved_faces(sources, site.solids.participants, site.solids.solids, *site.field,
                           site.group.front(), options_);
     Round best = best_round(sites, std::move(sources));
+    smooth(best, issues);
     for (const Site& site : sites)
       tell(best.junctions[site.group.front()], site.group.front(), best.arcs[site.group.front()], issues);
     SurfaceResult result;
-    result.joined = assemble_surface(best.sources, best.junctions);
+    result.joined = assemble_surface(best.sources, best.junctions, elements_);
     result.junctions = std::move(best.junctions);
     result.arcs = std::move(best.arcs);
     for (PreservedSource& source : best.sources) result.kept.push_back(std::move(source.selection.kept));
@@ -115,6 +127,18 @@ class MakeJunctions final : public Stage {
     return loops;
   }
 
+  void smooth(Round& round, IssueSink& issues) const {
+    const KeptSurface kept = kept_surface(round.sources);
+    for (std::size_t k = 0; k < site_count_; ++k) {
+      if (smoothing_[k] == 0 || round.junctions[k].patch.triangles.empty()) continue;
+      const int made = smooth_junction(round.junctions[k], kept, smoothing_[k]);
+      if (made < smoothing_[k])
+        issues.note("smoothing-limited", fmt::format("op {}", k + 1),
+                    fmt::format("{} of {} smoothing rounds made; more would fold or cut the surface", made,
+                                smoothing_[k]));
+    }
+  }
+
   static void tell(const Junction& junction, std::size_t site, int arcs, IssueSink& issues) {
     const std::string place = fmt::format("op {}", site + 1);
     if (junction.rung == JunctionRung::None) issues.note("joined-rigidly", place, junction.reason);
@@ -130,6 +154,8 @@ class MakeJunctions final : public Stage {
   ArtifactNames names_;
   std::size_t site_count_;
   PreserveOptions options_;
+  std::vector<JunctionElements> elements_;  // per operation
+  std::vector<int> smoothing_;              // per operation, rounds
 };
 
 }  // namespace

@@ -70,7 +70,7 @@ class Place final : public Stage {
 
   StageInfo info() const override {
     return {.name = "place",
-            .version = 1,
+            .version = 2,
             .reads = character_names(names_, inputs_),
             .writes = {names_.placement()}};
   }
@@ -78,7 +78,13 @@ class Place final : public Stage {
   void add_to_key(Hasher& key) const override {
     key.add_value("base", base_);
     key.add_value("inputs", inputs_);
-    key.add_value("ops", operations_);
+    for (const RecipeOperation& o : operations_) {  // only what is used here: looks do not move a part
+      key.add_value("kind", o.kind);
+      key.add_value("at", o.at);
+      key.add("from", o.from);
+      key.add("joint", o.joint);
+      key.add_value("place", o.place);
+    }
   }
 
   void run(const StageInput& in, StageOutput& out, IssueSink& issues) const override {

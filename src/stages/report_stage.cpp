@@ -77,7 +77,7 @@ class MakeReport final : public Stage {
 
   StageInfo info() const override {
     StageInfo info{.name = "report",
-                   .version = 1,
+                   .version = 2,
                    .reads = joined(joined(character_names(names_, inputs_), contents_names(names_, inputs_)),
                                    {names_.graft(), names_.joint_maps(), names_.surface(),
                                     names_.weight_record(), names_.color_steps(), names_.result(),

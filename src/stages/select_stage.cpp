@@ -2,64 +2,29 @@
 
 #include "base/parallel.h"
 #include "stages/inputs.h"
+#include "stages/loose_parts_issues.h"
+#include "stages/placed_sources.h"
 #include "stages/site_solids.h"
 #include "stages/stages.h"
+#include "stages/surface_options.h"
 #include "surface/selection.h"
 
 namespace skinforge {
 namespace {
 
-// The input's mesh where its source goes; a shift moves each vertex with its joints (Sec. 4.1).
-PolygonMesh place_mesh(const Character& character, const Similarity& model_from_input,
-                       const std::vector<Vec3>& joint_shift) {
-  PolygonMesh mesh = character.mesh;
-  if (!model_from_input.is_identity()) {
-    for (Vec3& p : mesh.positions) p = model_from_input * p;
-    for (Vec3& n : mesh.normals) n = model_from_input.rotation * n;
-    for (SplitNormals& split : mesh.split)
-      for (auto* normals : {&split.first, &split.second})
-        for (Vec3& n : *normals) n = model_from_input.rotation * n;
-  }
-  if (joint_shift.empty()) return mesh;
-  for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
-    for (const Influence& i : character.weights.of(VertexId(v)))
-      mesh.positions[v] += i.weight * joint_shift[i.joint.index()];
-  return mesh;
-}
-
-// The joints that each operation takes from a source; a donor has lost everything outside its sub-tree from
-// the start.
-std::vector<Cut> cuts_of_source(const Graft& graft, const Skeleton& skeleton, SourceId source) {
-  std::vector<Cut> cuts;
-  for (std::size_t k = 0; k < graft.sites.size(); ++k) {
-    const GraftSite& site = graft.sites[k];
-    std::vector<bool> removed(skeleton.size(), false);
-    bool any = false;
-    if (site.donor == source) {
-      removed = skeleton.subtree(graft.origins[site.fused.index()].joint);
-      removed.flip();
-      any = true;
-    }
-    for (const auto& [owner, joint] : site.removed)
-      if (owner == source) removed[joint.index()] = any = true;
-    if (any) cuts.push_back({k, removed});
-  }
-  return cuts;
-}
-
 /// Presence, preserved faces and secondary components of every source (Sec. 6).
 class Select final : public Stage {
  public:
   Select(ArtifactNames names, const Recipe& recipe) : names_(std::move(names)), inputs_(input_names(recipe)) {
-    options_.smoothing_passes = recipe.surface.presence_smoothing;
-    options_.keep_variance = recipe.surface.keep_or_drop.variance;
-    options_.keep_mean = recipe.surface.keep_or_drop.mean;
-    field_options_.voxel_factor = recipe.surface.voxel_factor;
+    for (const RecipeOperation& operation : recipe.operations) {
+      options_.push_back(cut_options(operation.surface));
+      field_options_.push_back(field_options(operation.surface));
+    }
   }
 
   StageInfo info() const override {
     return {.name = "select",
-            .version = 1,
+            .version = 2,
             .reads = joined(character_names(names_, inputs_), {names_.placement(), names_.graft()}),
             .writes = {names_.placed(), names_.selection(), names_.groups()}};
   }
@@ -77,11 +42,11 @@ class Select final : public Stage {
     for (std::size_t s = 0; s < graft.sources.size(); ++s) {
       const GraftSource& source = graft.sources[s];
       const Character& character = *characters[source.input];
-      placed.push_back(
-          place_mesh(character, source.model_from_input, shift_of(placement, graft, SourceId(s))));
-      const std::vector<Cut> cuts = cuts_of_source(graft, character.skeleton, SourceId(s));
-      selections.push_back(select_faces(placed.back(), character.weights, cuts, options_,
+      placed.push_back(place_mesh(character, graft, SourceId(s), placement));
+      const std::vector<Cut> cuts = cuts_of_source(graft, character.skeleton, SourceId(s), options_);
+      selections.push_back(select_faces(placed.back(), character.weights, cuts,
                                         fmt::format("input {}", inputs_[source.input]), issues));
+      tell_loose_parts(graft, SourceId(s), character, selections.back(), inputs_[source.input], issues);
     }
     out.put(names_.groups(), group_sites(graft, placed, selections, field_options_));
     out.put(names_.placed(), std::move(placed));
@@ -89,16 +54,10 @@ class Select final : public Stage {
   }
 
  private:
-  static std::vector<Vec3> shift_of(const PlacedOperations& placement, const Graft& graft, SourceId source) {
-    for (std::size_t k = 0; k < graft.sites.size(); ++k)
-      if (graft.sites[k].donor == source) return placement.joint_shifts[k];
-    return {};
-  }
-
   ArtifactNames names_;
   std::vector<std::string> inputs_;
-  SelectionOptions options_;
-  FieldOptions field_options_;
+  std::vector<CutOptions> options_;  // per operation, as all here
+  std::vector<FieldOptions> field_options_;
 };
 
 }  // namespace

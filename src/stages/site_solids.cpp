@@ -100,11 +100,12 @@ SiteSolids site_solids(const Graft& graft, const SiteGroup& group, const std::ve
 
 std::vector<SiteGroup> group_sites(const Graft& graft, const std::vector<PolygonMesh>& placed,
                                    const std::vector<SourceSelection>& selections,
-                                   const FieldOptions& options) {
+                                   std::span<const FieldOptions> options) {
   const std::size_t count = graft.sites.size();
   std::vector<std::map<SourceId, std::set<VertexId>>> touched(count);
   for (std::size_t k = 0; k < count; ++k)
-    if (graft.sites[k].donor.is_valid()) touched[k] = touched_vertices(graft, k, placed, selections, options);
+    if (graft.sites[k].donor.is_valid())
+      touched[k] = touched_vertices(graft, k, placed, selections, options[k]);
   std::vector<std::size_t> leader(count);
   std::iota(leader.begin(), leader.end(), std::size_t{0});
   for (std::size_t a = 0; a < count; ++a)

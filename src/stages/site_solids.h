@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "skeleton/graft.h"
@@ -28,9 +29,9 @@ SiteSolids site_solids(const Graft& graft, const SiteGroup& group, const std::ve
 
 /// Sites of one group: those that bring a part to the same source where their fields reach the same or
 /// touching faces of it (Sec. 6.1: one field for a composite operation), because the holes that they make
-/// would run into each other. Sorted by their first site; each site is in one group.
+/// would run into each other. Sorted by their first site; each site is in one group. `options`: per site.
 std::vector<SiteGroup> group_sites(const Graft& graft, const std::vector<PolygonMesh>& placed,
                                    const std::vector<SourceSelection>& selections,
-                                   const FieldOptions& options);
+                                   std::span<const FieldOptions> options);
 
 }  // namespace skinforge

@@ -85,6 +85,13 @@ StagePointer make_validate_stage(const ArtifactNames& names);
 StagePointer make_pictures_stage(const ArtifactNames& names, const Recipe& recipe,
                                  std::span<const ClipRequest> clips);
 
+/// character:*, placement, graft, joint_maps -> preview_glb, preview_report: the parts side by side.
+StagePointer make_preview_stage(const ArtifactNames& names, const Recipe& recipe,
+                                std::span<const ClipRequest> clips);
+
+/// File that a preview of the recipe is written to; never that of a build.
+std::string preview_name(const Recipe& recipe);
+
 /// Artifacts that hold the issues of all stages before the report.
 struct IssueArtifacts {
   std::vector<std::vector<std::string>> of_input;  ///< of reading each input

@@ -4,12 +4,15 @@
 #include <map>
 
 #include "geometry/quad_pairing.h"
+#include "surface/junction_normals.h"
 
 namespace skinforge {
 namespace {
 
 constexpr double kJunctionQuadScore =
     0.35;  // ours: lower than for recovery, because nobody modelled these triangles
+
+constexpr double kAnyQuadScore = 0.01;  // ours: a quad that folds scores 0
 
 class Assembler {
  public:
@@ -42,7 +45,7 @@ class Assembler {
     }
   }
 
-  void add_junction(const Junction& junction, std::int32_t site) {
+  void add_junction(const Junction& junction, std::int32_t site, JunctionElements elements) {
     if (junction.patch.triangles.empty()) {
       result_.junction_part.emplace_back();
       return;
@@ -51,8 +54,10 @@ class Assembler {
     result_.junction_part.push_back(part);
     result_.mesh.parts.push_back({"junction" + std::to_string(site + 1), 0, true, false});
     const std::vector<VertexId> names = junction_vertices(junction, site);
-    add_halved_quads(junction, names, part, site);
-    const PolygonMesh polygons = paired_patch(junction.patch, 2 * junction.quads);
+    const bool has_quads = elements != JunctionElements::Triangles;
+    if (has_quads) add_halved_quads(junction, names, part, site);
+    const PolygonMesh polygons = has_quads ? paired_patch(junction.patch, 2 * junction.quads, elements)
+                                           : patch_mesh(junction.patch, 0);
     for (std::size_t f = 0; f < polygons.face_count(); ++f) {
       for (const VertexId v : polygons.face(FaceId(f))) add_plain_corner(names[v.index()]);
       close_face(MaterialId(), part, {SourceId(), FaceId(), site});
@@ -121,8 +126,8 @@ class Assembler {
     }
   }
 
-  // The triangles from `begin` on, paired to quads where that makes good ones.
-  static PolygonMesh paired_patch(const TrianglePatch& patch, std::size_t begin) {
+  // The triangles from `begin` on.
+  static PolygonMesh patch_mesh(const TrianglePatch& patch, std::size_t begin) {
     PolygonMesh mesh;
     mesh.positions = patch.positions;
     mesh.parts = {{"junction", 0, false, false}};
@@ -134,7 +139,13 @@ class Assembler {
       mesh.face_part.emplace_back(0);
     }
     mesh.normals.assign(mesh.corner_count(), Vec3::Zero());
-    return recover_quads(mesh, {.min_score = kJunctionQuadScore, .follower_bonus = 0});
+    return mesh;
+  }
+
+  // The same, paired to quads where that makes good ones.
+  static PolygonMesh paired_patch(const TrianglePatch& patch, std::size_t begin, JunctionElements elements) {
+    const double score = elements == JunctionElements::Quads ? kAnyQuadScore : kJunctionQuadScore;
+    return recover_quads(patch_mesh(patch, begin), {.min_score = score, .follower_bonus = 0});
   }
 
   std::span<const PreservedSource> sources_;
@@ -143,68 +154,18 @@ class Assembler {
   bool has_colors_ = false;
 };
 
-// Whether most preserved corners at the junction's border carry the normal of their own face.
-bool neighbours_are_flat(const JoinedSurface& result, std::int32_t site) {
-  constexpr double kFlat = 0.999;  // ours: 2.6 degrees
-  int flat = 0, all = 0;
-  const PolygonMesh& mesh = result.mesh;
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    if (result.faces[f].site >= 0) continue;
-    const Vec3 normal = area_normal(mesh, FaceId(f)).normalized();
-    const std::size_t first = mesh.first_corner(FaceId(f));
-    for (std::size_t k = 0; k < mesh.face(FaceId(f)).size(); ++k) {
-      if (result.vertices[mesh.corners[first + k].index()].site != site) continue;
-      ++all;
-      flat += mesh.normals[first + k].dot(normal) > kFlat;
-    }
-  }
-  return 2 * flat > all;
-}
-
-// Smooth normals: at border vertices those of the preserved corners, elsewhere the mean of the junction's
-// faces.
-void shade_junction(JoinedSurface& result, std::int32_t site) {
-  PolygonMesh& mesh = result.mesh;
-  const bool flat = neighbours_are_flat(result, site);
-  std::map<VertexId, Vec3> preserved, made;
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    const bool in_junction = result.faces[f].site == site;
-    const Vec3 area = area_normal(mesh, FaceId(f));
-    const std::size_t first = mesh.first_corner(FaceId(f));
-    for (std::size_t k = 0; k < mesh.face(FaceId(f)).size(); ++k) {
-      const VertexId v = mesh.corners[first + k];
-      if (result.vertices[v.index()].site != site) continue;
-      if (in_junction)
-        made.try_emplace(v, Vec3::Zero()).first->second += area;
-      else
-        preserved.try_emplace(v, Vec3::Zero()).first->second += mesh.normals[first + k] * area.norm();
-    }
-  }
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    if (result.faces[f].site != site) continue;
-    const Vec3 own = area_normal(mesh, FaceId(f)).normalized();
-    const std::size_t first = mesh.first_corner(FaceId(f));
-    for (std::size_t k = 0; k < mesh.face(FaceId(f)).size(); ++k) {
-      const VertexId v = mesh.corners[first + k];
-      const auto border = preserved.find(v);
-      const Vec3 smooth =
-          border != preserved.end() && border->second.norm() > 0 ? border->second : made.at(v);
-      mesh.normals[first + k] = flat || !(smooth.norm() > 0) ? own : Vec3(smooth.normalized());
-    }
-  }
-}
-
 }  // namespace
 
-JoinedSurface assemble_surface(std::span<const PreservedSource> sources,
-                               std::span<const Junction> junctions) {
+JoinedSurface assemble_surface(std::span<const PreservedSource> sources, std::span<const Junction> junctions,
+                               std::span<const JunctionElements> elements) {
   Assembler assembler(sources);
   for (std::size_t s = 0; s < sources.size(); ++s) assembler.add_source(SourceId(s));
   for (std::size_t j = 0; j < junctions.size(); ++j)
-    assembler.add_junction(junctions[j], static_cast<std::int32_t>(j));
+    assembler.add_junction(junctions[j], static_cast<std::int32_t>(j),
+                           elements.empty() ? JunctionElements::Auto : elements[j]);
   JoinedSurface result = assembler.take();
   for (std::size_t j = 0; j < junctions.size(); ++j)
-    if (!junctions[j].patch.triangles.empty()) shade_junction(result, static_cast<std::int32_t>(j));
+    if (!junctions[j].patch.triangles.empty()) shade_junction(result, sources, static_cast<std::int32_t>(j));
   return result;
 }
 

@@ -10,6 +10,13 @@
 
 namespace skinforge {
 
+/// What the faces of a junction may be.
+enum class JunctionElements : std::uint8_t {
+  Auto,      ///< quads, and triangles where no good quad can be made of them
+  Quads,     ///< the same, but any two triangles that make a convex quad are one
+  Triangles  ///< halves of quads as the junction was judged
+};
+
 /// Where a result vertex comes from. Preserved: the vertex of its source. New: the junction, by site.
 struct ResultVertex {
   SourceId source;         ///< invalid for a new vertex
@@ -50,8 +57,9 @@ struct JoinedSurface {
 
 /// Puts preserved faces and junctions together. Border vertices are shared by index, never merged by
 /// position. Preserved corners keep their attributes; face materials are offset by `first_material` per
-/// source. Junction triangles are paired to quads where a quad is well shaped; their normals are smooth and
-/// take the preserved normals at the border, or flat where the neighbours are flat shaded.
-JoinedSurface assemble_surface(std::span<const PreservedSource> sources, std::span<const Junction> junctions);
+/// source. Junction triangles are paired to quads where a quad is well shaped; `shade_junction` gives their
+/// normals. `elements`: per junction; empty for Auto.
+JoinedSurface assemble_surface(std::span<const PreservedSource> sources, std::span<const Junction> junctions,
+                               std::span<const JunctionElements> elements = {});
 
 }  // namespace skinforge

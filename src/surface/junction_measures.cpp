@@ -7,6 +7,7 @@
 #include "geometry/edges.h"
 #include "geometry/scaled_jacobian.h"
 #include "geometry/self_intersection.h"
+#include "surface/junction_normals.h"
 
 namespace skinforge {
 namespace {
@@ -150,7 +151,9 @@ class Measuring {
 
 JunctionMeasures measure_junction(const JoinedSurface& joined, std::int32_t site,
                                   const DistanceField* field) {
-  return Measuring(joined, site, field).run();
+  JunctionMeasures measures = Measuring(joined, site, field).run();
+  measures.border_normal_step = border_normal_steps(joined, site);
+  return measures;
 }
 
 InheritedEdges inherited_edges(const JoinedSurface& joined) {

@@ -25,6 +25,8 @@ struct JunctionMeasures {
   std::vector<double>
       edge_length_ratio;  ///< per border edge: mean of the new edges at its ends over its own length
   std::vector<double> border_dihedral;  ///< per border edge, radians, between the preserved and the new face
+  std::vector<double>
+      border_normal_step;  ///< per end of each border edge, radians, between the corner normals
 };
 
 /// Measures the junction of `site`. `field` may be null or empty.

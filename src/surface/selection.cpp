@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/edges.h"
 
@@ -23,6 +24,14 @@ void smooth(const PolygonMesh& mesh, std::vector<double>& presence, int passes) 
       presence[v] = 0.5 * before[v] + 0.5 * sum / static_cast<double>(neighbours.size());
     }
   }
+}
+
+// By the exponent of the reference: h' = (h + 1) / 2, g = (1 - h') / h'.
+void harden(std::vector<double>& presence, double hardness) {
+  if (hardness == 0) return;
+  const double exponent = (1 - hardness) / (1 + hardness);
+  for (double& p : presence)
+    if (p > 0 && p < 1) p = std::pow(p, exponent);
 }
 
 // Mean and variance of the presence over the vertices of each component, and whether it spans whole faces of
@@ -59,6 +68,19 @@ std::vector<ComponentStatistics> measure_components(const PolygonMesh& mesh, con
   return all;
 }
 
+// The rule of the cut that leaves least of each component.
+std::vector<SelectionOptions> rules_of(const PolygonMesh& mesh, const Components& components,
+                                       std::span<const Cut> cuts, const SourceSelection& selection) {
+  std::vector<SelectionOptions> rules(static_cast<std::size_t>(components.count));
+  std::vector<double> least(rules.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    const auto statistics = measure_components(mesh, components, selection.site_presence[c]);
+    for (std::size_t k = 0; k < rules.size(); ++k)
+      if (statistics[k].mean() < least[k]) least[k] = statistics[k].mean(), rules[k] = cuts[c].options;
+  }
+  return rules;
+}
+
 ComponentRole role_of(const ComponentStatistics& s, const SelectionOptions& options) {
   const bool spans = s.has_full_face && s.has_empty_face;
   if (spans || s.variance() >= options.keep_variance) return ComponentRole::Blended;
@@ -90,24 +112,26 @@ std::vector<double> presence_of_cut(const PolygonMesh& mesh, const SkinWeights& 
     if (presence[v] >= 1 - options.clamp) presence[v] = 1;
   }
   smooth(mesh, presence, options.smoothing_passes);
+  harden(presence, options.hardness);
   return presence;
 }
 
 SourceSelection select_faces(const PolygonMesh& mesh, const SkinWeights& weights, std::span<const Cut> cuts,
-                             const SelectionOptions& options, const std::string& place, IssueSink& issues) {
+                             const std::string& place, IssueSink& issues) {
   SourceSelection selection;
   selection.presence.assign(mesh.vertex_count(), 1);
   for (const Cut& cut : cuts) {
     selection.cut_sites.push_back(cut.site);
-    selection.site_presence.push_back(presence_of_cut(mesh, weights, cut.removed, options));
+    selection.site_presence.push_back(presence_of_cut(mesh, weights, cut.removed, cut.options));
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
       selection.presence[v] = std::min(selection.presence[v], selection.site_presence.back()[v]);
   }
   const Components components = connected_components(mesh);
+  const std::vector<SelectionOptions> rules = rules_of(mesh, components, cuts, selection);
   std::vector<ComponentRole> roles;
   std::size_t kept_whole = 0, dropped_whole = 0;
   for (const ComponentStatistics& s : measure_components(mesh, components, selection.presence)) {
-    roles.push_back(role_of(s, options));
+    roles.push_back(role_of(s, rules[roles.size()]));
     kept_whole += roles.back() == ComponentRole::KeptWhole && s.mean() < 1;
     dropped_whole += roles.back() == ComponentRole::DroppedWhole && s.mean() > 0;
   }

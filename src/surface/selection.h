@@ -18,10 +18,12 @@ struct SelectionOptions {
   double keep_variance =
       0.04;                ///< Sec. 6: a component whose presence varies less is kept or dropped whole ...
   double keep_mean = 0.5;  ///< ... by whether its mean presence is above this
+  double hardness = 0;  ///< (-1, 1): above 0 the presence stays high further into the cut, below 0 it falls
+                        ///< sooner; p^g with g = (1 - h) / (1 + h), as the program of the paper's authors
 
   template <class Archive>
   friend void fields(Archive& a, SelectionOptions& o) {
-    a(o.smoothing_passes, o.clamp, o.keep_variance, o.keep_mean);
+    a(o.smoothing_passes, o.clamp, o.keep_variance, o.keep_mean, o.hardness);
   }
 };
 
@@ -30,6 +32,7 @@ struct SelectionOptions {
 struct Cut {
   std::size_t site = 0;
   std::vector<bool> removed;  ///< per joint of the input
+  SelectionOptions options;
 };
 
 /// How a connected component of a source takes part.
@@ -51,15 +54,16 @@ struct SourceSelection {
 };
 
 /// Presence per vertex: the sum of its weights on joints that stay, clamped near 0 and 1, then smoothed
-/// between (Sec. 6, "Automatic vertex selection").
+/// between (Sec. 6, "Automatic vertex selection") and bent by the hardness.
 std::vector<double> presence_of_cut(const PolygonMesh& mesh, const SkinWeights& weights,
                                     const std::vector<bool>& removed, const SelectionOptions& options);
 
 /// Faces that are preserved unmodified, and secondary components kept or dropped whole (Sec. 6, Fig. 7).
 /// Where we leave the paper: a component that has faces wholly 1 and faces wholly 0 is always blended,
 /// however small its variance, because a hand cut off a one-piece body varies by less than 0.04 over the
-/// whole body. `place` leads the issues.
+/// whole body. Of several cuts the one that leaves least of a component decides how. `place` leads the
+/// issues.
 SourceSelection select_faces(const PolygonMesh& mesh, const SkinWeights& weights, std::span<const Cut> cuts,
-                             const SelectionOptions& options, const std::string& place, IssueSink& issues);
+                             const std::string& place, IssueSink& issues);
 
 }  // namespace skinforge

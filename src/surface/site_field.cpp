@@ -77,6 +77,7 @@ double mean_edge_in(const FusionSolid& solid, const Box& box) {
 }
 
 double choose_voxel(const std::vector<FusionSolid>& solids, const Box& box, const FieldOptions& options) {
+  if (options.voxel > 0) return options.voxel;
   double edge = std::numeric_limits<double>::infinity(), girth = edge;
   for (const FusionSolid& solid : solids) {
     const double mean = mean_edge_in(solid, box), around = cut_girth(solid);

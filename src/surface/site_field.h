@@ -9,6 +9,7 @@ namespace skinforge {
 
 struct FieldOptions {
   double voxel_factor = 0.8;  ///< Sec. 6.1: times the lesser mean edge length
+  double voxel = 0;           ///< metres; taken as it is where above 0, without regard to edges and girths
   double girth_voxels = 8;    ///< junction.md b.0: a loop is at least pi times this many voxels around
   double fillet_voxels = 3;   ///< junction.md d.2: radius of the fillet in a union
   BlendOptions blend = {};
@@ -18,7 +19,8 @@ struct FieldOptions {
 
   template <class Archive>
   friend void fields(Archive& a, FieldOptions& o) {
-    a(o.voxel_factor, o.girth_voxels, o.fillet_voxels, o.blend, o.margin_voxels, o.band_voxels, o.max_points);
+    a(o.voxel_factor, o.voxel, o.girth_voxels, o.fillet_voxels, o.blend, o.margin_voxels, o.band_voxels,
+      o.max_points);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
 #include <sstream>
 #include <thread>
@@ -407,6 +408,82 @@ TEST_F(Build, InspectCountsTheHorse) {
       call({"inspect", fs::absolute(testing::shared_file("assets/quaternius_horse/horse.glb"))});
   EXPECT_THAT(text.out, HasSubstr("clips      13\n"));
   EXPECT_THAT(text.out, HasSubstr("Gallop"));
+}
+
+// A key of "surface" moves the stages that it means and those behind them, no others.
+TEST_F(Build, SurfaceKeysMoveTheirStages) {
+  const std::string recipe = "d13_remove_horse_tail.json";
+  const auto build_with = [&](const json& surface) {
+    copied_recipe(recipe, [&](json& r) {
+      r["animation"] = {{"clips", json::array()}};
+      if (!surface.empty()) r["ops"][0]["surface"] = surface;
+    });
+    const ProgramResult result = call(build(recipe, "out"));
+    EXPECT_EQ(result.status, 0) << result.err;
+    return statuses(result);
+  };
+  build_with({});
+  const auto ran = [](const std::map<std::string, std::string>& all) {
+    std::set<std::string> names;
+    for (const auto& [stage, status] : all)
+      if (status == "ran") names.insert(stage);
+    return names;
+  };
+  const auto elements = ran(build_with({{"elements", "triangles"}}));
+  EXPECT_THAT(elements, ::testing::Contains("junction"));
+  for (const char* other : {"import horse", "place", "graft_skeleton", "map_joints", "select", "field 1"})
+    EXPECT_THAT(elements, Not(::testing::Contains(other)));
+  const auto rule = ran(build_with({{"keep_or_drop", {{"mean", 0.6}}}}));
+  EXPECT_THAT(rule, ::testing::Contains("select"));
+  EXPECT_THAT(rule, Not(::testing::Contains("place")));
+  EXPECT_THAT(rule, Not(::testing::Contains("graft_skeleton")));
+  EXPECT_THAT(rule, Not(::testing::Contains("junction")));  // the tail has no such component: nothing changed
+}
+
+// A preview stands beside the build and says what it is.
+TEST_F(Build, PreviewNeverReplacesTheBuild) {
+  const std::string recipe = copied_recipe("d1_centaur.json", [](json& r) {
+    r["animation"] = {{"clips", {"Walk"}}};
+  });
+  auto arguments = build(recipe, "out");
+  ASSERT_EQ(call(arguments).status, 0);
+  const auto before = contents(folder / "out");
+  arguments.push_back("--preview");
+  const ProgramResult result = call(arguments);
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(statuses(result), Not(::testing::Contains(::testing::Key("junction"))));
+  auto after = contents(folder / "out");
+  EXPECT_GT(after.erase("d1_centaur-preview.glb"), 0U);
+  const json report = json::parse(after.at("report-preview.json"));
+  EXPECT_GT(after.erase("report-preview.json"), 0U);
+  EXPECT_EQ(after, before);
+  EXPECT_EQ(report.at("preview"), true);
+  EXPECT_EQ(report.at("clips").at(0).at("name"), "Walk");
+  EXPECT_EQ(report.at("issues").back().at("code"), "preview-only");
+  EXPECT_EQ(json::parse(before.at("report.json")).at("preview"), false);
+  const json glb = glb_json(folder / "out/d1_centaur-preview.glb");
+  EXPECT_EQ(glb.at("asset").at("extras").at("skinforge").at("preview"), true);
+  EXPECT_FALSE(glb.at("animations").empty());
+}
+
+// A leg without its hoof, which hangs on an IK control beside the leg: `check` names the joint that is
+// missing.
+TEST_F(Build, CheckNamesJointsOfPartsLeftBehind) {
+  const std::string recipe =
+      copied_recipe("d13_remove_horse_leg.json", [](json& r) { r["ops"][0]["at"] = "FrontShoulder.L"; });
+  const ProgramResult result = call({"check", recipe, "--cache", "cache"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("[part-left-behind]"));
+  EXPECT_THAT(result.err, HasSubstr("they hang on \"IKFrontLeg.L\", outside of what goes; add it to \"at\""));
+  copied_recipe("d13_remove_horse_leg.json", [](json&) {});
+  EXPECT_THAT(call({"check", recipe, "--cache", "cache"}).err, Not(HasSubstr("part-left")));
+}
+
+// Eyes with an armature of their own do not come with the head.
+TEST_F(Build, CheckNamesPartsLeftOut) {
+  const std::string recipe = copied_recipe("d9_three_model_composite.json", [](json&) {});
+  const ProgramResult result = call({"check", recipe, "--cache", "cache"});
+  EXPECT_THAT(result.err, HasSubstr("op 1: 133 faces of dragon do not come along: they hang on \"Bone\""));
 }
 
 }  // namespace

@@ -92,7 +92,11 @@ TEST(LoadRecipe, ReadsEveryKey) {
   EXPECT_THAT(recipe.operations[2].at, ElementsAre("Tail1", "Tail2"));
   EXPECT_EQ(recipe.operations[3].kind, OperationKind::Detach);
 
-  EXPECT_EQ(recipe.surface, (SurfaceOptions{0.8, 1, {0.05, 0.6}}));
+  SurfaceOptions surface;
+  surface.voxel_factor = 0.8;
+  surface.presence_smoothing = 1;
+  surface.keep_or_drop = {0.05, 0.6};
+  EXPECT_EQ(recipe.surface, surface);
   EXPECT_FALSE(recipe.animation.all_clips);
   EXPECT_THAT(recipe.animation.clips, ElementsAre("Walk", "Idle"));
   EXPECT_FALSE(recipe.animation.complete);
@@ -107,6 +111,35 @@ TEST(LoadRecipe, LeavesDefaults) {
   EXPECT_EQ(recipe.surface, SurfaceOptions());
   EXPECT_EQ(recipe.animation, AnimationOptions());
   EXPECT_EQ(recipe.output, (OutputOptions{.glb = "x.glb", .obj = "", .vdb = "", .influences = 4}));
+}
+
+// An operation takes the recipe's surface, key by key and side by side, where it does not say otherwise.
+TEST(LoadRecipe, OperationsInheritTheSurface) {
+  const auto surface = [](const std::string& of_recipe, const std::string& of_operation) {
+    return parse_recipe(
+               R"({"recipe_version": 1, "name": "x", "inputs": {"a": "a.glb", "b": "b.glb"}, "base": "a",
+      "ops": [{"op": "replace", "at": "j", "from": "b", "joint": "k", "surface": )" +
+                   of_operation + R"(}], "surface": )" + of_recipe + "}",
+               "x.json")
+        .operations.at(0)
+        .surface;
+  };
+  const SurfaceOptions all =
+      surface("{}", R"({"voxel": 0.02, "presence_smoothing": 3, "hardness": {"at": 0.5, "from": -0.2},
+        "include_parent": true, "keep_or_drop": {"mean": 0.7}, "elements": "triangles", "smoothing": 5})");
+  EXPECT_EQ(all.voxel, 0.02);
+  EXPECT_EQ(all.presence_smoothing, 3);
+  EXPECT_EQ(all.hardness, (Sides<double>{0.5, -0.2}));
+  EXPECT_EQ(all.include_parent, (Sides<bool>{true, true}));
+  EXPECT_EQ(all.keep_or_drop, (KeepOrDrop{0.04, 0.7}));
+  EXPECT_EQ(all.elements, Elements::Triangles);
+  EXPECT_EQ(all.smoothing, 5);
+
+  EXPECT_EQ(surface(R"({"hardness": 0.3})", R"({"hardness": {"from": 0}})").hardness,
+            (Sides<double>{0.3, 0}));
+  EXPECT_EQ(surface(R"({"elements": "quads"})", "{}").elements, Elements::Quads);
+  EXPECT_EQ(surface(R"({"voxel": 0.02})", R"({"voxel_factor": 0.7})").voxel, 0);
+  EXPECT_EQ(surface(R"({"voxel_factor": 0.7})", R"({"voxel": 0.02})").voxel, 0.02);
 }
 
 TEST(LoadRecipe, RemembersPlaces) {
@@ -170,6 +203,25 @@ TEST(LoadRecipe, NamesPlaceWantedAndFound) {
   EXPECT_THAT(op(part + R"("blend": true)"), HasSubstr("expected one of \"auto\", \"blend\""));
   EXPECT_THAT(op(part + R"("blend": "union")"), HasSubstr("\"op\": \"attach\" unites"));
   EXPECT_THAT(op(R"("replace", "at": "j", "from": "a", "joint": "j")"), HasSubstr("of the base by itself"));
+  EXPECT_THAT(op(part + R"("surface": {"hardnes": 1})"), HasSubstr("(nearest: \"hardness\""));
+  EXPECT_THAT(op(part + R"("surface": {"hardness": 1})"), HasSubstr("expected a number from -0.9 to 0.9"));
+  EXPECT_THAT(op(part + R"("surface": {"hardness": {"form": 0}})"), HasSubstr("(nearest: \"from\")"));
+  EXPECT_THAT(
+      op(part + R"("surface": {"hardness": "high"})"),
+      HasSubstr("expected a number from -0.9 to 0.9, or an object with \"at\" and \"from\", found the "
+                "string \"high\""));
+  EXPECT_THAT(op(part + R"("surface": {"elements": "tris"})"),
+              HasSubstr("expected one of \"auto\", \"quads\", \"triangles\""));
+  EXPECT_THAT(op(part + R"("surface": {"voxel": 1, "voxel_factor": 1})"),
+              HasSubstr("expected one of \"voxel\" and \"voxel_factor\""));
+  EXPECT_THAT(op(R"("remove", "at": "j", "surface": {"hardness": 0})"), HasSubstr("blends nothing"));
+  EXPECT_THAT(op(R"("remove", "at": "j", "surface": {"include_parent": {"from": true}})"),
+              HasSubstr("takes nothing from an input"));
+  EXPECT_THAT(op(R"("detach", "at": "j", "surface": {"include_parent": true})"), HasSubstr("blends nothing"));
+  EXPECT_THAT(op(R"("attach", "at": "j", "from": "b", "joint": "k", "surface": {"hardness": {"at": 0}})"),
+              HasSubstr("does not cut the character"));
+  EXPECT_EQ(op(R"("attach", "at": "j", "from": "b", "joint": "k", "surface": {"hardness": 0.1})"),
+            "no error");
   EXPECT_EQ(op(R"("replace", "at": "j", "from": "a", "joint": "j", "place": {"scale": 2})"), "no error");
 }
 

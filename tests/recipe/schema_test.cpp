@@ -92,10 +92,14 @@ TEST(RecipeSchema, EveryPropertyIsExplained) {
     const std::string type = property.value("type", "");
     const bool is_number = type == "number" || type == "integer";
     EXPECT_TRUE(!is_number || property.contains("unit"));
-    EXPECT_TRUE(!(is_number || type == "boolean") || property.contains("default"));
+    const bool is_inherited =
+        place.find("/ops/") != std::string::npos && place.find("/surface/") != std::string::npos;
+    const bool is_side = place.find("/anyOf/") != std::string::npos;  // the default is of both together
+    const bool has_no_default = is_inherited || is_side || place.ends_with("/voxel");
+    EXPECT_TRUE(!(is_number || type == "boolean") || property.contains("default") || has_no_default);
   });
-  EXPECT_EQ(count,
-            37);  // 9 of the recipe, 4 + 2 of an input, 6 + 4 of an operation, 3 + 2, 3 and 4 of the rest
+  EXPECT_EQ(count, 61);  // 9 of the recipe, 4 + 2 of an input, 7 + 4 of an operation, twice 8 + 2 + 4 of its
+                         // surface, 3 and 4
 }
 
 struct Case {
@@ -171,6 +175,26 @@ TEST(RecipeSchema, AgreesWithTheParser) {
       {"blend", operation(kPart + R"("blend": "soft")")},
       {"replace by union", operation(kPart + R"("blend": "union")")},
       {"voxel factor", member(R"("surface": {"voxel_factor": 0})")},
+      {"whole surface",
+       operation(kPart + R"("surface": {"voxel": 0.1, "hardness": {"at": 0.5}, "include_parent": true,
+                                        "elements": "quads", "smoothing": 3})"),
+       true},
+      {"attach hardness",
+       operation(R"("op": "attach", "at": "j", "from": "b", "joint": "k", "surface": {"hardness": 0.2})"),
+       true},
+      {"remove with its parent",
+       operation(R"("op": "remove", "at": "j", "surface": {"include_parent": true})"), true},
+      {"two voxels", operation(kPart + R"("surface": {"voxel": 0.1, "voxel_factor": 1})")},
+      {"hardness", operation(kPart + R"("surface": {"hardness": 1})")},
+      {"hardness of a side", operation(kPart + R"("surface": {"hardness": {"top": 0}})")},
+      {"elements", operation(kPart + R"("surface": {"elements": "tris"})")},
+      {"remove hardness", operation(R"("op": "remove", "at": "j", "surface": {"hardness": 0})")},
+      {"remove voxel", operation(R"("op": "remove", "at": "j", "surface": {"voxel": 1})")},
+      {"remove from",
+       operation(R"("op": "remove", "at": "j", "surface": {"include_parent": {"from": true}})")},
+      {"detach parent", operation(R"("op": "detach", "at": "j", "surface": {"include_parent": true})")},
+      {"attach at", operation(R"("op": "attach", "at": "j", "from": "b", "joint": "k",
+                                 "surface": {"hardness": {"at": 0.2}})")},
       {"half a pass", member(R"("surface": {"presence_smoothing": 1.5})")},
       {"clips word", member(R"("animation": {"clips": "none"})")},
       {"rate", member(R"("animation": {"rate_hz": 0})")},
@@ -218,7 +242,7 @@ TEST(RecipeSchema, DefaultsAreThoseOfTheParser) {
   whole["inputs"]["b"]["pose"]["Head"] = stated_defaults(pose);
 
   const Recipe little = parse_recipe(smallest.dump(), "x.json"), all = parse_recipe(whole.dump(), "x.json");
-  EXPECT_EQ(whole.at("surface").size(), 3U);
+  EXPECT_EQ(whole.at("surface").size(), 7U);
   EXPECT_EQ(whole.at("ops").at(0).at("place").size(), 4U);
   EXPECT_EQ(little.operations, all.operations);
   EXPECT_EQ(little.surface, all.surface);

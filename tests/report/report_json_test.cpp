@@ -24,9 +24,9 @@ std::vector<std::string> keys(const nlohmann::ordered_json& object) {
 
 TEST(ReportJson, KeysStandInTheDeclaredOrder) {
   const auto json = nlohmann::ordered_json::parse(to_json(sample_report()));
-  EXPECT_THAT(keys(json),
-              ElementsAre("report_version", "tool", "recipe", "inputs", "operations", "mesh", "weights",
-                          "junctions", "clips", "ledger", "joints", "joint_maps", "outputs", "issues"));
+  EXPECT_THAT(keys(json), ElementsAre("report_version", "preview", "tool", "recipe", "inputs", "operations",
+                                      "mesh", "weights", "junctions", "clips", "ledger", "joints",
+                                      "joint_maps", "outputs", "issues"));
   EXPECT_THAT(keys(json["outputs"][0]), ElementsAre("name", "bytes", "sha256"));
 }
 

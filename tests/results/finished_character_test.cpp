@@ -242,6 +242,16 @@ std::set<std::string> moving_inputs(const FinishedCharacter& result, int animati
   return moving;
 }
 
+// The characters of data/ are smooth wherever they are cut, so there is no step in the shading to be seen.
+TEST_P(FinishedCharacterTest, ShadingRunsAcrossBorders) {
+  if (!fs::path(GetParam()).string().starts_with(testing::repository_file("recipes"))) return;
+  for (const json& junction : report().at("junctions")) {
+    const json& step = junction.at("border_normal_step");
+    if (step.is_null()) continue;
+    EXPECT_LT(step.at("max"), 1e-4) << junction.at("operation");  // degrees
+  }
+}
+
 TEST_P(FinishedCharacterTest, TheOtherPartsMove) {
   const double diagonal = result().sources()[0].diagonal();
   for (const json& clip : report().at("clips")) {

@@ -112,6 +112,22 @@ TEST(AssembleSurface, SmoothNeighboursGiveTheirNormals) {
           1e-12);
 }
 
+// As triangles: eight of the four walls, halved as they were judged.
+TEST(AssembleSurface, Triangles) {
+  const TwoCubes cubes;
+  Junction junction;
+  junction.loops = cubes.loops;
+  junction.patch = cubes.walls();
+  junction.quads = 4;
+  const std::vector<JunctionElements> wanted = {JunctionElements::Triangles};
+  const JoinedSurface joined = assemble_surface(cubes.sources, std::vector<Junction>{junction}, wanted);
+  const MeshTopology topology = measure_topology(joined.mesh);
+  EXPECT_EQ(topology.quads, 10u);  // of the cubes
+  EXPECT_EQ(joined.mesh.face_count(), 18u);
+  EXPECT_EQ(topology.boundary_edges + topology.non_manifold_edges, 0u);
+  EXPECT_EQ(topology.euler, 2);
+}
+
 TEST(AssembleSurface, WithoutAJunctionOnlyPreservedFaces) {
   const TwoCubes cubes;
   const JoinedSurface joined = cubes.joined({});

@@ -41,9 +41,9 @@ inline SourceSelection select_input(const SceneInput& input) {
   SkinWeights weights;
   for (const Vec3& p : input.mesh.positions) weights.push_row(two_joint_row(input.weight(p.x())));
   std::vector<Cut> cuts;
-  if (input.is_cut) cuts.push_back({0, {false, true}});
+  if (input.is_cut) cuts.push_back({0, {false, true}, {}});
   IssueSink issues;
-  return select_faces(input.mesh, weights, cuts, {}, "scene", issues);
+  return select_faces(input.mesh, weights, cuts, "scene", issues);
 }
 
 /// `contact`: where an added part meets its host.

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "surface/junction_scene.h"
 
 namespace skinforge {
@@ -56,15 +58,24 @@ TEST(PresenceOfCut, OneSmoothingPassBetween) {
               ::testing::Pointwise(::testing::DoubleNear(kRounding), {1., 0.8625, 0.4875, 0.}));
 }
 
+// By hand: p^((1 - h) / (1 + h)): the third power at -0.5, the cube root at 0.5; ends stay ends.
+TEST(PresenceOfCut, HardnessBendsBetweenTheEnds) {
+  const Tube tube({1, 0.5, 0.125, 0});
+  EXPECT_THAT(ring_presence(tube, {.smoothing_passes = 0, .hardness = -0.5}),
+              ::testing::Pointwise(::testing::DoubleNear(kRounding), {1., 0.125, 0.001953125, 0.}));
+  EXPECT_THAT(ring_presence(tube, {.smoothing_passes = 0, .hardness = 0.5}),
+              ::testing::Pointwise(::testing::DoubleNear(kRounding), {1., std::cbrt(0.5), 0.5, 0.}));
+}
+
 SourceSelection select(const Tube& tube, const std::vector<Cut>& cuts, IssueSink& issues) {
-  return select_faces(tube.mesh, tube.weights, cuts, {}, "input toy", issues);
+  return select_faces(tube.mesh, tube.weights, cuts, "input toy", issues);
 }
 
 // Rings 0 to 2 are wholly present: the two belts of faces between them stay, the others go to site 7.
 TEST(SelectFaces, BeltsOfATube) {
   const Tube tube({1, 1, 1, 0.5, 0, 0});
   IssueSink issues;
-  const SourceSelection s = select(tube, {{7, kWithoutSecond}}, issues);
+  const SourceSelection s = select(tube, {{7, kWithoutSecond, {}}}, issues);
   for (std::size_t f = 0; f < tube.mesh.face_count(); ++f) {
     const bool stays = f < 2 * kAround;
     EXPECT_EQ(s.kept[f] != 0, stays) << f;
@@ -85,9 +96,9 @@ TEST(SelectFaces, TwoCuts) {
                              : std::vector<Influence>{{JointId(1), 1}});
   }
   IssueSink issues;
-  const SourceSelection s =
-      select_faces(tube.mesh, weights, std::vector<Cut>{{3, {true, false, false}}, {5, {false, false, true}}},
-                   {}, "input toy", issues);
+  const SourceSelection s = select_faces(
+      tube.mesh, weights, std::vector<Cut>{{3, {true, false, false}, {}}, {5, {false, false, true}, {}}},
+      "input toy", issues);
   const std::vector<int> belt_site = {3, 3, -1, -1, 5, 5};
   for (std::size_t f = 0; f < s.face_site.size(); ++f) EXPECT_EQ(s.face_site[f], belt_site[f / kAround]);
   for (std::size_t v = 0; v < s.presence.size(); ++v)
@@ -102,7 +113,7 @@ TEST(SelectFaces, SecondaryComponentsKeptOrDroppedWhole) {
   tube.add(Tube({0.4, 0.4}, 30));
   tube.add(Tube({1, 1}, 40));
   IssueSink issues;
-  const SourceSelection s = select(tube, {{0, kWithoutSecond}}, issues);
+  const SourceSelection s = select(tube, {{0, kWithoutSecond, {}}}, issues);
   const std::size_t first = 6 * kAround;
   for (std::size_t f = 0; f < kAround; ++f) {
     EXPECT_EQ(s.face_role[first + f], ComponentRole::KeptWhole);
@@ -117,13 +128,31 @@ TEST(SelectFaces, SecondaryComponentsKeptOrDroppedWhole) {
   EXPECT_EQ(issues.issues()[0].message, "1 partly present components kept whole, 1 dropped whole");
 }
 
+// Each component is judged by the rule of the cut that leaves least of it.
+TEST(SelectFaces, EachCutHasItsRule) {
+  Tube tube({0.6, 0.6});
+  tube.add(Tube({0.4, 0.4}, 20));
+  const std::vector<bool> without_first = {true, false};
+  IssueSink issues;
+  const auto kept = [&](double first_mean, double second_mean) {
+    SelectionOptions first, second;
+    first.keep_mean = first_mean, second.keep_mean = second_mean;
+    const SourceSelection s = select(tube, {{0, kWithoutSecond, first}, {1, without_first, second}}, issues);
+    return std::pair(s.kept[0] != 0, s.kept[kAround] != 0);
+  };
+  // The first tube has 0.6 left by cut 0 and 0.4 by cut 1; the second the other way round.
+  EXPECT_EQ(kept(0.5, 0.5), std::pair(false, false));
+  EXPECT_EQ(kept(0.5, 0.3), std::pair(true, false));
+  EXPECT_EQ(kept(0.3, 0.5), std::pair(false, true));
+}
+
 // A small end off a long tube: 2 of 100 rings gone is a variance of 0.02 * 0.98 < 0.04, and still a cut.
 TEST(SelectFaces, SmallPartOfALargeComponentIsBlended) {
   std::vector<double> rings(100, 1);
   rings[98] = rings[99] = 0;
   const Tube tube(rings);
   IssueSink issues;
-  const SourceSelection s = select(tube, {{0, kWithoutSecond}}, issues);
+  const SourceSelection s = select(tube, {{0, kWithoutSecond, {}}}, issues);
   EXPECT_EQ(std::count(s.kept.begin(), s.kept.end(), 1), 97 * kAround);
   EXPECT_EQ(s.face_role[0], ComponentRole::Blended);
 }
