@@ -118,6 +118,8 @@ Json schema_of() {
     return enum_schema<T>();
   } else if constexpr (std::is_floating_point_v<T>) {
     return {{"type", "number"}};
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return {{"type", "boolean"}};
   } else if constexpr (std::is_integral_v<T>) {
     return {{"type", "integer"}};
   } else if constexpr (std::is_same_v<T, std::string>) {

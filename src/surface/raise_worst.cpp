@@ -19,8 +19,8 @@ constexpr double kGain = 1.0 / 1024;  // ours: less is no gain, so equals do not
 
 class Search {
  public:
-  Search(QuadPatch& patch, const WantedSurface& surface)
-      : patch_(patch), surface_(surface), faces_(patch.positions.size()) {
+  Search(QuadPatch& patch, const WantedSurface& surface, const PatchMirror* mirror)
+      : patch_(patch), surface_(surface), mirror_(mirror), faces_(patch.positions.size()) {
     for (std::size_t f = 0; f < face_count(); ++f)
       for (const std::int32_t v : face(f)) faces_[v].push_back(f);
   }
@@ -64,8 +64,18 @@ class Search {
     for (std::size_t f = 0; f < face_count(); ++f)
       if (quality(f) < kGood)
         for (const std::int32_t v : face(f))
-          if (static_cast<std::size_t>(v) >= patch_.fixed) poor.insert(v);
+          if (static_cast<std::size_t>(v) >= patch_.fixed) poor.insert(leading(v));
     return poor;
+  }
+
+  // Of a vertex and its image the one that is moved.
+  std::int32_t leading(std::int32_t v) const { return mirror_ ? std::min(v, mirror_->image[v]) : v; }
+
+  void move(std::int32_t v, const Vec3& place) {
+    patch_.positions[v] = place;
+    if (!mirror_) return;
+    const std::int32_t image = mirror_->image[v];
+    patch_.positions[image] = image == v ? mirror_->plane.onto(place) : mirror_->plane.mirrored(place);
   }
 
   // The faces' mean normal at a vertex, and the mean length of its edges.
@@ -99,23 +109,31 @@ class Search {
     Vec3 place = start;
     for (int d = 0; d < kDirections; ++d) {
       const double angle = 2 * std::numbers::pi * d / kDirections;
-      patch_.positions[v] =
-          surface_.project(start + step * length * (std::cos(angle) * x + std::sin(angle) * y));
+      move(v, surface_.project(start + step * length * (std::cos(angle) * x + std::sin(angle) * y)));
       const double found = quality_around(v);
       if (found > best + kGain) best = found, place = patch_.positions[v];
     }
-    patch_.positions[v] = place;
+    move(v, place);
   }
 
   QuadPatch& patch_;
   const WantedSurface& surface_;
+  const PatchMirror* mirror_;
   std::vector<std::vector<std::size_t>> faces_;
 };
 
 }  // namespace
 
-void raise_worst(QuadPatch& patch, const WantedSurface& surface) {
-  Search(patch, surface).run();
+void raise_worst(QuadPatch& patch, const WantedSurface& surface, const PatchMirror* mirror) {
+  Search(patch, surface, mirror).run();
+}
+
+void polish_symmetric(QuadPatch& patch, const WantedSurface& surface, const PatchMirror& mirror) {
+  const WantedSurface both = mirrored(surface, mirror.plane);
+  make_symmetric(patch, mirror);
+  polish(patch, both.project);
+  make_symmetric(patch, mirror);  // but for rounding it is
+  raise_worst(patch, both, &mirror);
 }
 
 }  // namespace skinforge
