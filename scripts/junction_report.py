@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Builds recipes and prints one line for each of their junctions; fails when one has a crack, a fold or a cut, or is symmetric
-but for a little.
+"""Builds recipes and prints one line for each of their junctions; fails when one has a crack, a fold or a cut, or when
+symmetric faces lie off their images.
 
     scripts/junction_report.py [--program FILE] [RECIPE ...]
         (default: build/release/skinforge, recipes/*.json and $SKINFORGE_SHARED/recipes/*.json)
