@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Builds recipes and prints one line for each of their junctions; fails when one has a crack, a fold or a cut.
+"""Builds recipes and prints one line for each of their junctions; fails when one has a crack, a fold or a cut, or when
+symmetric faces lie off their images.
 
     scripts/junction_report.py [--program FILE] [RECIPE ...]
         (default: build/release/skinforge, recipes/*.json and $SKINFORGE_SHARED/recipes/*.json)
 
 Columns: border counts; rung; quads and triangles; irregular vertices; scaled Jacobian, least and mean; distance to the
-blended field, 95 % and most, voxels; dihedral at the border, mean, degrees; self-intersections; CPU seconds of the
-recipe's junctions. A rung that is not the best says why in the last column.
+blended field, 95 % and most, voxels; dihedral at the border, mean, degrees; self-intersections; mirror symmetry (the
+farthest new vertex from the image of its image, in edges; "faces" where the faces are no images; "-" where the parts
+are not placed so); CPU seconds of the recipe's junctions. A rung that is not the best says why in the last column.
 """
 
 import argparse
@@ -33,6 +35,13 @@ def number(value, key, form="{:.2f}"):
     return form.format(value[key]) if value else "-"
 
 
+def symmetry(junction):
+    found = junction["symmetry"]
+    if found["image_operation"] == 0:
+        return "-"
+    return f"{found['max_deviation']:.2g}" if found["faces_symmetric"] else "faces"
+
+
 def line(recipe, junction, seconds):
     jacobian, deviation, dihedral = (junction[key] for key in ("scaled_jacobian", "deviation", "border_dihedral"))
     angle = number(dihedral, "mean", "{:.0f}")
@@ -40,7 +49,7 @@ def line(recipe, junction, seconds):
     return [f"{recipe} {junction['operation']}", "/".join(map(str, junction["border_loops"])), junction["rung"],
             junction["quads"], junction["triangles"], junction["irregular_vertices"], number(jacobian, "min"),
             number(jacobian, "mean"), number(deviation, "p95"), number(deviation, "max"), angle,
-            "-" if cuts is None else cuts, f"{seconds:.2f}", junction["reason"]]
+            "-" if cuts is None else cuts, symmetry(junction), f"{seconds:.2f}", junction["reason"]]
 
 
 def faults(junction):
@@ -49,6 +58,8 @@ def faults(junction):
              if junction[key]]
     if junction["rung"] == "tube" and junction["folded_faces"]:
         found.append("folded_faces")
+    if symmetry(junction) not in ("-", "faces", "0"):
+        found.append("symmetry")
     return found
 
 
@@ -60,7 +71,7 @@ def main():
     shared = Path(os.environ.get("SKINFORGE_SHARED", ROOT.parent / "shared")) / "recipes"
     recipes = arguments.recipes or sorted((ROOT / "recipes").glob("*.json")) + sorted(shared.glob("*.json"))
     rows = [["junction", "borders", "rung", "quads", "tris", "irregular", "SJ", "mean", "dev 95%", "max", "dihedral",
-             "cuts", "CPU s", "why not better"]]
+             "cuts", "symmetry", "CPU s", "why not better"]]
     bad = []
     with tempfile.TemporaryDirectory() as scratch:
         for recipe in recipes:

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "geometry/box_tree.h"
 #include "geometry/triangle_bvh.h"
@@ -46,28 +47,49 @@ std::array<Vec3, 3> principal_axes(std::span<const Vec3> points) {
   return {axes.col(0), axes.col(1), axes.col(2)};
 }
 
-void match(MirrorSymmetry& plane, const PointSet& set, double reach) {
-  const auto points = set.points();
-  std::vector<VertexId> image(points.size());
-  for (std::size_t v = 0; v < points.size(); ++v) image[v] = set.nearest(plane.mirrored(points[v]), reach);
-  plane.partner.assign(points.size(), VertexId());
-  std::size_t matched = 0;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (!image[v].is_valid() || image[image[v].index()] != VertexId(v)) continue;
-    plane.partner[v] = image[v];
-    ++matched;
+std::vector<VertexId> partners_between(const PointSet& from, const PointSet& to, const MirrorPlane& plane,
+                                       double reach) {
+  std::vector<VertexId> partners;
+  for (std::size_t v = 0; v < from.points().size(); ++v) {
+    VertexId image = to.nearest(plane.mirrored(from.points()[v]), reach);
+    if (image.is_valid() && from.nearest(plane.mirrored(to.points()[image.index()]), reach) != VertexId(v))
+      image = VertexId();
+    partners.push_back(image);
   }
-  plane.matched = static_cast<double>(matched) / static_cast<double>(points.size());
+  return partners;
+}
+
+constexpr double kKept = 0.98;  // ours: of the partners, as a plane moves to the middle of them
+
+void match(MirrorSymmetry& found, const PointSet& set, double reach) {
+  found.partner = partners_between(set, set, found.plane, reach);
+  const auto without = std::count(found.partner.begin(), found.partner.end(), VertexId());
+  found.matched = 1 - static_cast<double>(without) / static_cast<double>(set.points().size());
 }
 
 void offer_planes(MirrorSymmetry& best, const PointSet& set, const Box3& box,
                   const std::array<Vec3, 3>& normals, double reach) {
   for (const Vec3& normal : normals)
     for (const Vec3& through : {Vec3(Vec3::Zero()), Vec3(box.center()), centroid(set.points())}) {
-      MirrorSymmetry plane{normal, normal.dot(through), {}, 0};
-      match(plane, set, reach);
-      if (plane.matched > best.matched) best = std::move(plane);
+      MirrorSymmetry found{{normal, normal.dot(through)}, {}, 0};
+      match(found, set, reach);
+      if (found.matched > best.matched) best = std::move(found);
     }
+}
+
+// Moves a plane to where the partners say it is, unless that loses some of them.
+void settle(MirrorSymmetry& best, const PointSet& set, const Box3& box, double reach) {
+  constexpr double kSameOffset = 1e-5;  // ours: of the diagonal; far above the rounding of a file's floats
+  std::vector<double> middle;
+  for (std::size_t v = 0; v < best.partner.size(); ++v)
+    if (best.partner[v].is_valid())
+      middle.push_back(best.plane.normal.dot(set.points()[v] + set.points()[best.partner[v].index()]) / 2);
+  const auto median = middle.begin() + static_cast<std::ptrdiff_t>(middle.size() / 2);
+  std::nth_element(middle.begin(), median, middle.end());
+  const bool is_central = std::abs(*median) < kSameOffset * box.diagonal().norm();
+  MirrorSymmetry settled{{best.plane.normal, is_central ? 0 : *median}, {}, 0};
+  match(settled, set, reach);
+  if (settled.matched >= kKept * best.matched) best = std::move(settled);
 }
 
 }  // namespace
@@ -83,7 +105,13 @@ std::optional<MirrorSymmetry> find_mirror_symmetry(std::span<const Vec3> points,
   offer_planes(best, set, box, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, reach);
   if (best.matched < options.least_share) offer_planes(best, set, box, principal_axes(points), reach);
   if (best.matched < options.least_share) return std::nullopt;
+  settle(best, set, box, reach);
   return best;
+}
+
+std::vector<VertexId> mirror_partners(std::span<const Vec3> from, std::span<const Vec3> to,
+                                      const MirrorPlane& plane, double reach) {
+  return partners_between(PointSet(from), PointSet(to), plane, reach);
 }
 
 }  // namespace skinforge

@@ -242,13 +242,31 @@ class RecipeReader {
   }
 
   static Blend read_blend(const ValueReader& reader, OperationKind kind) {
-    const Blend blend =
-        reader.choice<Blend>({{"auto", Blend::Auto}, {"blend", Blend::Blend}, {"union", Blend::Union}});
-    if (kind == OperationKind::Replace && blend == Blend::Union)
-      reader.fail("a replacement blends; \"op\": \"attach\" unites");
-    if (kind == OperationKind::Attach && blend == Blend::Blend)
-      reader.fail("an attached part is united; \"op\": \"replace\" blends");
+    if (!reader.is_object()) return {blend_kind(reader, kind), 0};
+    const ObjectReader object = reader.object({"operator", "radius"});
+    Blend blend;
+    if (const auto name = object.find("operator")) blend.kind = blend_kind(*name, kind);
+    if (const auto radius = object.find("radius")) {
+      blend.radius = radius->number();
+      if (!(blend.radius > 0) || blend.radius > kMaxLength)
+        radius->fail_expected(fmt::format("a number above 0 and up to {}", kMaxLength));
+      if (blend.kind == BlendKind::Paper)
+        radius->fail("\"paper\" has no fillet; \"smin\" and \"gradient\" have");
+    }
     return blend;
+  }
+
+  static BlendKind blend_kind(const ValueReader& reader, OperationKind kind) {
+    if (kind == OperationKind::Replace && reader.is_string() && reader.value().text == "union")
+      reader.fail("a replacement blends; \"op\": \"attach\" unites");
+    if (kind == OperationKind::Attach && reader.is_string() && reader.value().text == "blend")
+      reader.fail("an attached part is united; \"op\": \"replace\" blends");
+    return reader.choice<BlendKind>({{"auto", BlendKind::Auto},
+                                     {"blend", BlendKind::Auto},
+                                     {"union", BlendKind::Auto},
+                                     {"paper", BlendKind::Paper},
+                                     {"smin", BlendKind::Smin},
+                                     {"gradient", BlendKind::Gradient}});
   }
 
   static Placement read_placement(const ValueReader& reader) {

@@ -48,7 +48,20 @@ struct RecipeInput {
 
 enum class OperationKind : std::uint8_t { Replace, Attach, Remove, Detach };
 enum class Align : std::uint8_t { Joint, Loop, None };
-enum class Blend : std::uint8_t { Auto, Blend, Union };
+enum class BlendKind : std::uint8_t { Auto, Paper, Smin, Gradient };
+
+/// How the surfaces of an operation become one (SkinMixer Eq. 1 and beyond). "blend" (replace) and "union" (attach) say
+/// what the operation does anyway, and mean Auto.
+struct Blend {
+  BlendKind kind = BlendKind::Auto;
+  double radius = 0;  ///< of the fillet, metres; 0: by the parts
+
+  auto operator<=>(const Blend&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, Blend& b) {
+    a(b.kind, b.radius);
+  }
+};
 
 /// Where the grafted part goes (SkinMixer Sec. 4.1): p -> scale R p about `joint`, then moved by `align`,
 /// then by `offset`; with Align::None p -> scale R p + offset about the input's origin.
@@ -130,7 +143,7 @@ struct RecipeOperation {
   std::string from;             ///< input; replace and attach
   std::string joint;            ///< joint of that input; replace and attach
   Placement place;
-  Blend blend = Blend::Auto;
+  Blend blend;
   SurfaceOptions surface;  ///< the recipe's, where the operation does not say otherwise
 
   auto operator<=>(const RecipeOperation&) const = default;

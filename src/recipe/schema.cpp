@@ -174,6 +174,19 @@ Json if_operation(Json kinds, Json consequence) {
   return {{"if", {{"properties", {{"op", {{"enum", std::move(kinds)}}}}}}}, {"then", std::move(consequence)}};
 }
 
+Json blend() {
+  const Json name = {{"type", "string"}, {"enum", {"auto", "blend", "union", "paper", "smin", "gradient"}}};
+  const Json object = closed_object({
+      {"operator", described("The operator.", with_default(name, "auto"), {"gradient"})},
+      {"radius",
+       described("Radius of the fillet; by default 1.2 radii of the thinner limb, or three voxels for an "
+                 "attachment.",
+                 {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", 1e9}, {"unit", "metres"}},
+                 {0.05})},
+  });
+  return {{"oneOf", Json::array({name, object})}, {"default", "auto"}};
+}
+
 Json operation() {
   Json schema = closed_object(
       {
@@ -188,10 +201,14 @@ Json operation() {
           {"joint", described("Joint of that input: the top of the part.", text(), {"Spine"})},
           {"place", described("Where the part goes.", placement(),
                               {{{"align", "joint"}, {"rotate_deg", {0, -90, 0}}}})},
-          {"blend", described("How the surfaces meet (SkinMixer Eq. 1): blend for replace, union for attach; "
-                              "auto is the one that fits.",
-                              {{"type", "string"}, {"enum", {"auto", "blend", "union"}}, {"default", "auto"}},
-                              {"auto"})},
+          {"blend",
+           described(
+               "How the surfaces become one: paper (SkinMixer Eq. 1), smin (the same fillet everywhere), "
+               "gradient (a fillet where surfaces cross, none where they run side by side), auto (for a "
+               "replacement paper where the parts are aligned and gradient where they meet at an angle; "
+               "gradient for an attachment). blend and union say what the operation does anyway. Where "
+               "operations make one junction, the first one's holds.",
+               blend(), {"auto", {{"operator", "gradient"}, {"radius", 0.05}}})},
           {"surface", described("How this operation's junction is made, where it differs from the recipe's "
                                 "`surface`.",
                                 surface(false), {{{"hardness", 0.3}, {"elements", "triangles"}}})},
@@ -203,8 +220,8 @@ Json operation() {
                              {{"required", {"joint"}}},
                              {{"required", {"place"}}},
                              {{"required", {"blend"}}}}}};
-  const auto blend_is = [](const char* kind) {
-    return Json{{"properties", {{"blend", {{"enum", {"auto", kind}}}}}}};
+  const auto blend_is_not = [](const char* kind) {
+    return Json{{"properties", {{"blend", {{"not", {{"const", kind}}}}}}}};
   };
   const auto surface_without = [](Json patterns) {
     return Json{{"properties", {{"surface", {{"properties", std::move(patterns)}}}}}};
@@ -215,8 +232,8 @@ Json operation() {
   const Json no_at = without("at"), no_from = without("from");
   schema["allOf"] = {
       if_operation({"replace", "attach"}, {{"required", {"from", "joint"}}}),
-      if_operation({"replace"}, blend_is("blend")),
-      if_operation({"attach"}, blend_is("union")),
+      if_operation({"replace"}, blend_is_not("union")),
+      if_operation({"attach"}, blend_is_not("blend")),
       if_operation({"attach", "detach"}, {{"properties", {{"at", one_joint}}}}),
       if_operation({"remove", "detach"}, {{"not", donor_keys}}),
       if_operation({"attach"}, surface_without({{"hardness", no_at}, {"include_parent", no_at}})),

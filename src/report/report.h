@@ -88,6 +88,18 @@ struct ColorStepReport {
   double max = 0;
 };
 
+struct SymmetryReport {
+  std::int64_t image_operation = 0;
+  std::string reason;
+  std::array<double, 3> plane_normal = {0, 0, 0};
+  double plane_offset = 0;
+  double matched = 0;
+  bool faces_symmetric = false;
+  std::optional<double> mean_deviation;
+  std::optional<double> max_deviation;
+  std::optional<double> border_deviation;
+};
+
 struct JunctionReport {
   std::int64_t operation = 0;
   std::string rung;
@@ -111,6 +123,7 @@ struct JunctionReport {
   std::optional<Distribution> border_dihedral;
   std::optional<Distribution> border_normal_step;
   std::optional<ColorStepReport> border_color_step;
+  std::optional<SymmetryReport> symmetry;
 };
 
 struct MeshReport {

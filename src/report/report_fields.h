@@ -125,6 +125,22 @@ void describe(const ColorStepReport& c, F& f) {
 }
 
 template <class F>
+void describe(const SymmetryReport& s, F& f) {
+  f("image_operation", s.image_operation, "index",
+    "Operation whose junction is its mirror image, itself or another; 0 = it is not meant to be symmetric");
+  f("reason", s.reason, "text", "Why it is not symmetric; empty when it is");
+  f("plane_normal", s.plane_normal, "ratio", "Unit normal of the base's plane of symmetry; 0 0 0 = none");
+  f("plane_offset", s.plane_offset, "m", "Distance of that plane from the origin along the normal");
+  f("matched", s.matched, "ratio", "Share of the base's vertices that have a mirror image");
+  f("faces_symmetric", s.faces_symmetric, "yes/no", "Whether every new face and vertex has a mirror image");
+  f("mean_deviation", s.mean_deviation, "edges",
+    "New vertices from the images of their images, in mean edges; null where not symmetric");
+  f("max_deviation", s.max_deviation, "edges", "The farthest of them");
+  f("border_deviation", s.border_deviation, "edges",
+    "The same of the border vertices, which are the inputs' own, the farthest");
+}
+
+template <class F>
 void describe(const JunctionReport& j, F& f) {
   f("operation", j.operation, "index", "Operation that made this junction, counted from 1");
   f("rung", j.rung, "text", "Method that made its surface");
@@ -161,6 +177,7 @@ void describe(const JunctionReport& j, F& f) {
     "to be seen, more where the input is hard or flat there");
   f("border_color_step", j.border_color_step, "1/255",
     "Difference of base colour across the border as an engine shows it; null without new faces");
+  f("symmetry", j.symmetry, "-", "Mirror symmetry; null without new faces");
 }
 
 template <class F>

@@ -123,6 +123,8 @@ std::string junction_text(const JunctionReport& j) {
   if (j.deviation) text += fmt::format(", within {:.2f} voxels of the field", j.deviation->p95);
   if (j.border_dihedral) text += fmt::format(", {:.0f} deg across the border", j.border_dihedral->mean);
   if (j.border_color_step) text += fmt::format(", colour steps of {:.1f}", j.border_color_step->mean);
+  if (j.symmetry && j.symmetry->faces_symmetric)
+    text += j.symmetry->max_deviation == 0.0 ? ", mirror symmetric" : ", mirror symmetric faces";
   const std::vector<std::string> found = faults(j);
   text += found.empty() ? ", sound" : "\n     ! " + joined(found);
   if (!j.reason.empty()) text += "\n     " + j.reason;

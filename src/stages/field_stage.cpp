@@ -11,7 +11,7 @@ namespace {
 class Field final : public Stage {
  public:
   Field(ArtifactNames names, const Recipe& recipe, std::size_t site)
-      : names_(std::move(names)), site_(site), options_(field_options(recipe.operations[site].surface)) {}
+      : names_(std::move(names)), site_(site), options_(field_options(recipe.operations[site])) {}
 
   StageInfo info() const override {
     return {.name = "field",

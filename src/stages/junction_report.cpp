@@ -4,6 +4,7 @@
 
 #include "report/distribution.h"
 #include "surface/junction_measures.h"
+#include "surface/symmetry_measures.h"
 
 namespace skinforge {
 namespace {
@@ -31,6 +32,25 @@ const char* name_of(JunctionRung rung) {
       return "none";
   }
   return "none";
+}
+
+SymmetryReport report_symmetry(const SurfaceResult& surface, std::size_t site) {
+  const JunctionSymmetry& symmetry = surface.junctions[site].symmetry;
+  SymmetryReport r;
+  r.image_operation = symmetry.site + 1;
+  r.reason = symmetry.reason;
+  r.matched = symmetry.matched;
+  const auto measures = measure_symmetry(surface.joined, surface.junctions, site);
+  if (!measures) return r;
+  const MirrorPlane& plane = symmetry.borders.plane;
+  r.plane_normal = {plane.normal.x(), plane.normal.y(), plane.normal.z()};
+  r.plane_offset = plane.offset;
+  r.faces_symmetric = measures->faces_symmetric;
+  r.mean_deviation = measures->mean;
+  r.max_deviation = measures->max;
+  r.border_deviation = measures->border_max;
+  if (!r.faces_symmetric) r.reason = "this rung has no symmetric faces here";
+  return r;
 }
 
 }  // namespace
@@ -64,6 +84,7 @@ JunctionReport report_junction(const SurfaceResult& surface, std::size_t site, c
   if (color.edges > 0) r.border_color_step = {wide(color.edges), color.mean, color.p95, color.largest};
   r.border_dihedral = distribution_of(in_degrees(m.border_dihedral));
   r.border_normal_step = distribution_of(in_degrees(m.border_normal_step));
+  r.symmetry = report_symmetry(surface, site);
   return r;
 }
 

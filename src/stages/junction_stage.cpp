@@ -2,20 +2,13 @@
 
 #include <optional>
 
-#include "stages/site_solids.h"
+#include "stages/junction_symmetry.h"
 #include "stages/stages.h"
 #include "stages/surface_options.h"
 #include "surface/junction_smoothing.h"
 
 namespace skinforge {
 namespace {
-
-// Everything that the junctions of one build are made from.
-struct Site {
-  SiteGroup group;
-  SiteSolids solids;
-  const SiteField* field = nullptr;
-};
 
 // One round of making all junctions, and what it left of the sources.
 struct Round {
@@ -53,16 +46,17 @@ class MakeJunctions final : public Stage {
   void run(const StageInput& in, StageOutput& out, IssueSink& issues) const override {
     const auto& placed = in.get<std::vector<PolygonMesh>>(names_.placed());
     const auto& selections = in.get<std::vector<SourceSelection>>(names_.selection());
-    const std::vector<Site> sites = sites_of(in, placed, selections);
+    const std::vector<JunctionSite> sites = sites_of(in, placed, selections);
     std::vector<PreservedSource> sources;
     for (std::size_t s = 0; s < placed.size(); ++s) sources.push_back({&placed[s], selections[s]});
-    for (const Site& site : sites)
-      discard_moved_faces(sources, site.solids.participants, site.solids.solids, *site.field,
-                          site.group.front(), options_);
-    Round best = best_round(sites, std::move(sources));
+    for (const JunctionSite& site : sites)
+      discard_moved_faces(sources, site.solids.participants, site.solids.solids, *site.field, site.first(),
+                          options_);
+    BuildSymmetry symmetry(sites, sources);
+    Round best = best_round(sites, symmetry, std::move(sources));
     smooth(best, issues);
-    for (const Site& site : sites)
-      tell(best.junctions[site.group.front()], site.group.front(), best.arcs[site.group.front()], issues);
+    for (const JunctionSite& site : sites)
+      tell(best.junctions[site.first()], site.first(), best.arcs[site.first()], issues);
     SurfaceResult result;
     result.joined = assemble_surface(best.sources, best.junctions, elements_);
     result.junctions = std::move(best.junctions);
@@ -72,9 +66,9 @@ class MakeJunctions final : public Stage {
   }
 
  private:
-  std::vector<Site> sites_of(const StageInput& in, const std::vector<PolygonMesh>& placed,
-                             const std::vector<SourceSelection>& selections) const {
-    std::vector<Site> sites;
+  std::vector<JunctionSite> sites_of(const StageInput& in, const std::vector<PolygonMesh>& placed,
+                                     const std::vector<SourceSelection>& selections) const {
+    std::vector<JunctionSite> sites;
     for (const SiteGroup& group : in.get<std::vector<SiteGroup>>(names_.groups()))
       sites.push_back({group, site_solids(in.get<Graft>(names_.graft()), group, placed, selections),
                        &in.get<SiteField>(names_.field(group.front()))});
@@ -83,19 +77,20 @@ class MakeJunctions final : public Stage {
 
   // Where junctions cut preserved faces, those faces go and all junctions are made anew; of all rounds the
   // one with the least faults counts.
-  Round best_round(const std::vector<Site>& sites, std::vector<PreservedSource> sources) const {
+  Round best_round(const std::vector<JunctionSite>& sites, BuildSymmetry& symmetry,
+                   std::vector<PreservedSource> sources) const {
     constexpr int kRounds = 4;  // ours: later rounds found nothing on the real characters
     std::optional<Round> best;
     for (int round = 0; round < kRounds; ++round) {
-      for (PreservedSource& source : sources) clean_borders(source, options_);
+      sources = symmetry.cleaned(std::move(sources), options_);
       const KeptSurface kept = kept_surface(sources);
-      Round made = make_round(sites, sources, kept);
+      Round made = make_round(sites, symmetry, sources, kept);
       std::size_t discarded = 0;
-      for (const Site& site : sites) {
-        const Junction& junction = made.junctions[site.group.front()];
+      for (const JunctionSite& site : sites) {
+        const Junction& junction = made.junctions[site.first()];
         if (junction.faults.self_intersections > 0)
           discarded += discard_faces(sources, site.solids.participants,
-                                     faces_cut_by(junction.patch, junction.loops, kept), site.group.front());
+                                     faces_cut_by(junction.patch, junction.loops, kept), site.first());
       }
       if (!best || made.faults < best->faults) best = std::move(made);
       if (discarded == 0) break;
@@ -103,12 +98,12 @@ class MakeJunctions final : public Stage {
     return std::move(*best);
   }
 
-  Round make_round(const std::vector<Site>& sites, const std::vector<PreservedSource>& sources,
-                   const KeptSurface& kept) const {
+  Round make_round(const std::vector<JunctionSite>& sites, const BuildSymmetry& symmetry,
+                   const std::vector<PreservedSource>& sources, const KeptSurface& kept) const {
     Round round{sources, std::vector<Junction>(site_count_), std::vector<int>(site_count_, 0), {}};
-    for (const Site& site : sites) {
-      const std::size_t first = site.group.front();
-      round.junctions[first] = build_junction(loops_of(sources, site, round.arcs[first]), *site.field, kept);
+    for (const JunctionSite& site : sites) {
+      const std::size_t first = site.first();
+      round.junctions[first] = make_junction(site, symmetry.of(site, sources), round, kept);
       round.faults += round.junctions[first].faults;
       for (const std::size_t other : site.group)
         if (other != first)
@@ -117,14 +112,22 @@ class MakeJunctions final : public Stage {
     return round;
   }
 
-  static std::vector<JunctionLoop> loops_of(std::span<const PreservedSource> sources, const Site& site,
-                                            int& arcs) {
-    std::vector<JunctionLoop> loops;
-    for (const SiteParticipant& p : site.solids.participants) {
-      auto found = loops_of_sites(sources[p.source.index()], p.source, site.group, p.is_host, arcs);
-      loops.insert(loops.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+  // Of two junctions that are each other's images the second is the first one's image.
+  static Junction make_junction(const JunctionSite& site, JunctionSymmetry symmetry, Round& round,
+                                const KeptSurface& kept) {
+    auto loops = loops_of(round.sources, site, round.arcs[site.first()]);
+    const auto own = static_cast<std::int32_t>(site.first());
+    Junction junction;
+    if (symmetry.site >= 0 && symmetry.site < own) {
+      const Junction& other = round.junctions[static_cast<std::size_t>(symmetry.site)];
+      junction = mirrored_junction(other, other.symmetry.borders, std::move(loops));
+      junction.faults = faults_of(junction.patch, junction.loops, kept);
+    } else {
+      junction = build_junction(std::move(loops), *site.field, kept,
+                                symmetry.site == own ? &symmetry.borders : nullptr);
     }
-    return loops;
+    junction.symmetry = std::move(symmetry);
+    return junction;
   }
 
   void smooth(Round& round, IssueSink& issues) const {

@@ -18,7 +18,7 @@ class Select final : public Stage {
   Select(ArtifactNames names, const Recipe& recipe) : names_(std::move(names)), inputs_(input_names(recipe)) {
     for (const RecipeOperation& operation : recipe.operations) {
       options_.push_back(cut_options(operation.surface));
-      field_options_.push_back(field_options(operation.surface));
+      field_options_.push_back(field_options(operation));
     }
   }
 

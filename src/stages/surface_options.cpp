@@ -11,10 +11,29 @@ SelectionOptions selection_options(const SurfaceOptions& surface, bool is_donor)
   return options;
 }
 
-FieldOptions field_options(const SurfaceOptions& surface) {
+namespace {
+
+BlendOperator blend_operator(BlendKind kind) {
+  switch (kind) {
+    case BlendKind::Paper:
+      return BlendOperator::Paper;
+    case BlendKind::Smin:
+      return BlendOperator::Smin;
+    case BlendKind::Gradient:
+      return BlendOperator::Gradient;
+    case BlendKind::Auto:
+      break;
+  }
+  return BlendOperator::Auto;
+}
+
+}  // namespace
+
+FieldOptions field_options(const RecipeOperation& operation) {
   FieldOptions options;
-  options.voxel_factor = surface.voxel_factor;
-  options.voxel = surface.voxel;
+  options.voxel_factor = operation.surface.voxel_factor;
+  options.voxel = operation.surface.voxel;
+  options.blend = {blend_operator(operation.blend.kind), operation.blend.radius};
   return options;
 }
 

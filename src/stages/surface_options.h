@@ -11,7 +11,7 @@ namespace skinforge {
 /// `is_donor`: of the side that the part comes from.
 SelectionOptions selection_options(const SurfaceOptions& surface, bool is_donor);
 
-FieldOptions field_options(const SurfaceOptions& surface);
+FieldOptions field_options(const RecipeOperation& operation);
 
 JunctionElements junction_elements(const SurfaceOptions& surface);
 

@@ -1,10 +1,13 @@
 #include "surface/best_tube.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
+#include "surface/half_tube.h"
 #include "surface/junction_faults.h"
 #include "surface/quad_gate.h"
+#include "surface/raise_worst.h"
 #include "surface/remesh.h"
 #include "surface/tube.h"
 #include "surface/untangle.h"
@@ -68,34 +71,73 @@ std::span<const TubeOptions> options_for(std::size_t borders) {
 // Rows more than the borders' pace asks for: a few where they are deep beside the shape that they follow.
 constexpr int kMoreRows[] = {0, 1, -1, 2, 3, 4};
 
-void try_tables(const QuadTube& tube, const TubeProblem& problem, Choice& choice) {
+// How a tube gets its tables, and how one is made of them.
+struct Maker {
+  std::function<std::optional<TubeTable>(int rows, const TubeOptions&)> table;
+  std::function<std::optional<QuadPatch>(const TubeTable&, int rows, bool is_polished)> made;
+};
+
+void try_tables(const QuadTube& tube, const Maker& maker, std::size_t borders, Choice& choice) {
   std::vector<std::pair<int, TubeTable>> tried;
-  for (const TubeOptions& options : options_for(problem.loops.size()))
+  for (const TubeOptions& options : options_for(borders))
     for (const int more : kMoreRows) {
       const int rows = tube.wanted_rows() + more;
-      const auto table = tube.table(rows, options);
+      const auto table = maker.table(rows, options);
       if (!table || std::find(tried.begin(), tried.end(), std::pair(rows, *table)) != tried.end()) continue;
       for (const bool is_polished : {true, false}) {
-        choice.offer(tube.made(*table, rows, problem.surface, is_polished));
+        if (auto made = maker.made(*table, rows, is_polished)) choice.offer(*std::move(made));
         if (choice.is_good()) return;
       }
       tried.emplace_back(rows, *table);
     }
 }
 
+Maker any_tube(const QuadTube& tube, const WantedSurface& surface) {
+  return {[&](int rows, const TubeOptions& options) { return tube.table(rows, options); },
+          [&](const TubeTable& table, int rows, bool is_polished) {
+            return tube.made(table, rows, surface, is_polished);
+          }};
+}
+
+Maker symmetric_tube(const QuadTube& tube, const WantedSurface& surface, const PatchMirror& borders) {
+  return {[&](int rows, const TubeOptions& options) { return tube.symmetric_table(rows, options, borders); },
+          [&](const TubeTable& table, int rows, bool is_polished) {
+            return tube.made_symmetric(table, rows, surface, borders, is_polished);
+          }};
+}
+
+// A tube of the half above the plane, and its image.
+Maker unfolded_tube(const QuadTube& tube, std::size_t on_plane, const WantedSurface& surface,
+                    const PatchMirror& borders) {
+  return {[&](int rows, const TubeOptions& options) { return tube.table(rows, options); },
+          [&, on_plane](const TubeTable& table, int rows, bool is_polished) {
+            Unfolded whole = unfolded(tube.laid(table, rows), on_plane, borders);
+            polish_symmetric(whole.patch, surface, whole.mirror, is_polished);
+            return whole.patch;
+          }};
+}
+
 }  // namespace
 
-std::optional<QuadPatch> best_tube(const TrianglePatch& patch, const TubeProblem& problem,
-                                   std::string& fault) {
+std::optional<QuadPatch> best_tube(const TrianglePatch& patch, const TubeProblem& problem, std::string& fault,
+                                   const PatchMirror* mirror) {
   Choice choice(problem);
   const TrianglePatch fine = remesh(patch, problem.surface.project, {.length_scale = kDomainScale});
-  for (const TubeDomain& domain : tube_domains(fine, problem.loops)) {
+  const std::size_t borders = problem.loops.size();
+  const bool is_half = mirror && borders > 2;
+  for (const TubeDomain& domain :
+       is_half ? half_domains(fine, problem.loops, *mirror) : tube_domains(fine, problem.loops)) {
     std::string trouble;
-    if (const auto tube = QuadTube::make(domain, trouble))
-      try_tables(*tube, problem, choice);
-    else
+    const auto tube = QuadTube::make(domain, trouble);
+    if (!tube)
       choice.note(trouble);
-    if (choice.best()) break;
+    else if (is_half)
+      try_tables(*tube, unfolded_tube(*tube, domain.seams.size(), problem.surface, *mirror), 2, choice);
+    else
+      try_tables(*tube,
+                 mirror ? symmetric_tube(*tube, problem.surface, *mirror) : any_tube(*tube, problem.surface),
+                 borders, choice);
+    if (is_half ? choice.is_good() : choice.best().has_value()) break;
   }
   if (!choice.best())
     fault = choice.fault().empty() ? "the counts of its borders do not meet" : choice.fault();

@@ -21,8 +21,9 @@ class FieldJunction {
   /// which.
   std::optional<TrianglePatch> zipped(double clearance, std::string& fault) const;
 
-  /// A tube of quads in the place of a part (`best_tube`).
-  std::optional<QuadPatch> tube(const PatchPart& part, std::string& fault) const;
+  /// A tube of quads in the place of a part (`best_tube`); mirrored with `borders`.
+  std::optional<QuadPatch> tube(const PatchPart& part, std::string& fault,
+                                const PatchMirror* borders = nullptr) const;
 
   /// A zipped patch remeshed on the isosurface. `length_scale`: of the borders' edge lengths.
   TrianglePatch remeshed(const TrianglePatch& zipped, double length_scale) const;

@@ -1,5 +1,8 @@
 #include "surface/patch_parts.h"
 
+#include <algorithm>
+#include <map>
+
 namespace skinforge {
 
 std::vector<PatchPart> split_parts(const TrianglePatch& whole, const std::vector<JunctionLoop>& loops) {
@@ -29,6 +32,39 @@ std::vector<PatchPart> split_parts(const TrianglePatch& whole, const std::vector
     parts[static_cast<std::size_t>(component[t])].patch.triangles.push_back({name[a], name[b], name[c]});
   }
   return parts;
+}
+
+std::optional<PartImage> image_of_part(const std::vector<PatchPart>& parts, std::size_t p,
+                                       const PatchMirror& borders) {
+  if (parts[p].patch.fixed == 0) return std::nullopt;
+  const std::int32_t first = borders.image[static_cast<std::size_t>(parts[p].vertex[0])];
+  for (std::size_t q = 0; q < parts.size(); ++q) {
+    const auto begin = parts[q].vertex.begin(),
+               end = begin + static_cast<std::ptrdiff_t>(parts[q].patch.fixed);
+    if (std::find(begin, end, first) == end || parts[q].patch.fixed != parts[p].patch.fixed) continue;
+    std::map<std::int32_t, std::int32_t> name;
+    for (auto v = begin; v != end; ++v) name[*v] = static_cast<std::int32_t>(v - begin);
+    PartImage image{q, {borders.plane, {}}};
+    for (std::size_t v = 0; v < parts[p].patch.fixed; ++v) {
+      const auto found = name.find(borders.image[static_cast<std::size_t>(parts[p].vertex[v])]);
+      if (found == name.end()) return std::nullopt;
+      image.borders.image.push_back(found->second);
+    }
+    return image;
+  }
+  return std::nullopt;
+}
+
+QuadPatch reflected(const QuadPatch& quads, const PatchMirror& borders, std::span<const Vec3> fixed) {
+  QuadPatch result{{fixed.begin(), fixed.end()}, {}, {}, quads.fixed};
+  for (std::size_t v = quads.fixed; v < quads.positions.size(); ++v)
+    result.positions.push_back(borders.plane.mirrored(quads.positions[v]));
+  const auto name = [&](std::int32_t v) {
+    return static_cast<std::size_t>(v) < quads.fixed ? borders.image[static_cast<std::size_t>(v)] : v;
+  };
+  for (const Quad& q : quads.quads) result.quads.push_back({name(q[0]), name(q[3]), name(q[2]), name(q[1])});
+  for (const Triangle& t : quads.triangles) result.triangles.push_back({name(t[0]), name(t[2]), name(t[1])});
+  return result;
 }
 
 void add_part(QuadPatch& whole, const PatchPart& part, const QuadPatch& quads) {

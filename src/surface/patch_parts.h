@@ -1,7 +1,7 @@
 #pragma once
 
 #include "surface/junction_loop.h"
-#include "surface/quad_patch.h"
+#include "surface/patch_mirror.h"
 
 namespace skinforge {
 
@@ -16,6 +16,20 @@ struct PatchPart {
 /// The parts of a patch whose fixed vertices are those of `loops`, by their lowest triangle. A loop that
 /// no triangle touches belongs to none.
 std::vector<PatchPart> split_parts(const TrianglePatch& whole, const std::vector<JunctionLoop>& loops);
+
+/// The part that mirroring makes of a part.
+struct PartImage {
+  std::size_t part = 0;
+  PatchMirror borders;  ///< per fixed vertex of the part its image, a fixed vertex of that other part
+};
+
+/// Where part `p` goes when `borders` says where the fixed vertices of the whole go; none where it meets
+/// borders of several parts.
+std::optional<PartImage> image_of_part(const std::vector<PatchPart>& parts, std::size_t p,
+                                       const PatchMirror& borders);
+
+/// Quads made for one part as quads of its image, whose fixed vertices are at `fixed`.
+QuadPatch reflected(const QuadPatch& quads, const PatchMirror& borders, std::span<const Vec3> fixed);
 
 /// Puts quads made for one part, with that part's fixed vertices, among those of the whole: positions and
 /// faces are appended.

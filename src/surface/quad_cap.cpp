@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include "base/expect.h"
 #include "surface/quad_gate.h"
 #include "surface/raise_worst.h"
+#include "surface/symmetric_table.h"
 
 namespace skinforge {
 namespace {
@@ -39,14 +42,15 @@ class Layouts {
       until_.push_back(until_.back() + (loop[(k + 1) % loop.size()] - loop[k % loop.size()]).norm());
   }
 
-  // The best ones of a kind, best first.
-  std::vector<Layout> best(bool has_ring) const {
+  // The best ones of a kind, best first; with a reflection those that it maps onto themselves.
+  std::vector<Layout> best(bool has_ring, std::optional<LoopReflection> reflection) const {
     const int n = static_cast<int>(loop_.size()), half = (n - n % 2) / 2;
     std::vector<Layout> all;
     if (n % 2 == 1 && !has_ring) return all;
     for (int width = 1; width < half; ++width)
       for (int start = 0; start < n; ++start)
-        all.push_back({cost(start, width, half - width), start, width, half - width, has_ring});
+        if (!reflection || is_symmetric(start, width, half - width, *reflection))
+          all.push_back({cost(start, width, half - width), start, width, half - width, has_ring});
     std::stable_sort(all.begin(), all.end(),
                      [](const Layout& a, const Layout& b) { return a.cost < b.cost; });
     all.resize(std::min(all.size(), kTried));
@@ -54,6 +58,18 @@ class Layouts {
   }
 
  private:
+  // Whether the corners of a grid are each other's images.
+  bool is_symmetric(int start, int width, int height, LoopReflection reflection) const {
+    const int n = static_cast<int>(loop_.size());
+    if (n % 2 == 1) return false;
+    std::set<int> corners, images;
+    for (const int c : {start, start + width, start + width + height, start + 2 * width + height}) {
+      corners.insert(c % n);
+      images.insert(((reflection.sum - c) % n + n) % n);
+    }
+    return corners == images;
+  }
+
   double length(int from, int edges) const {
     const auto begin = static_cast<std::size_t>(from) % loop_.size();
     return until_[begin + static_cast<std::size_t>(edges)] - until_[begin];
@@ -84,14 +100,22 @@ Vec3 normal_of(const std::vector<Vec3>& loop) {
   return sum;
 }
 
-QuadPatch placed(const JunctionLoop& loop, const Layout& layout, const std::vector<Support>& supports) {
+std::optional<QuadPatch> placed(const JunctionLoop& loop, const Layout& layout,
+                                const std::vector<Support>& supports, const PatchMirror* borders) {
   QuadPatch patch = cap_faces(static_cast<int>(loop.positions.size()), layout.start, layout.width,
                               layout.height, layout.has_ring);
   std::copy(loop.positions.begin(), loop.positions.end(), patch.positions.begin());
   for (int pass = 0; pass < 2; ++pass)  // the second with diagonals that suit the places of the first
     patch.positions = fair(halved(patch), supports).positions;
   const Vec3 up = normal_of(loop.positions);
-  raise_worst(patch, {[](const Vec3& p) { return p; }, [&](const Vec3&) { return up; }});
+  const WantedSurface surface{[](const Vec3& p) { return p; }, [&](const Vec3&) { return up; }};
+  std::optional<PatchMirror> mirror;
+  if (borders) {
+    mirror = mirror_of(patch, *borders);
+    if (!mirror) return std::nullopt;
+    make_symmetric(patch, *mirror);
+  }
+  raise_worst(patch, surface, mirror ? &*mirror : nullptr);
   return patch;
 }
 
@@ -125,17 +149,24 @@ QuadPatch cap_faces(int border, int start, int width, int height, bool has_ring)
   return patch;
 }
 
-std::optional<QuadPatch> quad_cap(const JunctionLoop& loop) {
+std::optional<QuadPatch> quad_cap(const JunctionLoop& loop, const PatchMirror* mirror) {
   if (loop.positions.size() < 4) return std::nullopt;
+  std::optional<LoopReflection> reflection;
+  if (mirror) {
+    std::vector<std::int32_t> own(loop.positions.size());
+    std::iota(own.begin(), own.end(), 0);
+    reflection = loop_reflection(own, mirror->image);
+    if (!reflection) return std::nullopt;
+  }
   const Layouts layouts(loop.positions);
   std::optional<QuadPatch> best;
   double quality = -3;
   for (const bool is_fair : {true, false}) {
     const std::vector<Support> supports = is_fair ? supports_of({loop}) : std::vector<Support>();
     for (const bool has_ring : {false, true})
-      for (const Layout& layout : layouts.best(has_ring)) {
-        QuadPatch patch = placed(loop, layout, supports);
-        const double found = least_scaled_jacobian(patch);
+      for (const Layout& layout : layouts.best(has_ring, reflection)) {
+        auto patch = placed(loop, layout, supports, mirror);
+        const double found = patch ? least_scaled_jacobian(*patch) : quality;
         if (found > quality + kGain) best = std::move(patch), quality = found;
       }
     if (quality >= kLeastJacobian) return best;  // a membrane only where the fair one is poor

@@ -4,7 +4,7 @@
 
 #include "surface/fairing.h"
 #include "surface/junction_loop.h"
-#include "surface/quad_patch.h"
+#include "surface/patch_mirror.h"
 
 namespace skinforge {
 
@@ -13,7 +13,9 @@ namespace skinforge {
 /// do odd ones, with one triangle in it. It leaves the border along the slope of the preserved faces
 /// (`fair`). None
 /// for fewer than four vertices, or when no grid reaches the least scaled Jacobian of the gate.
-std::optional<QuadPatch> quad_cap(const JunctionLoop& loop);
+/// With `mirror` (what it does to the loop's vertices, where it maps onto itself) only symmetric caps are
+/// made.
+std::optional<QuadPatch> quad_cap(const JunctionLoop& loop, const PatchMirror* mirror = nullptr);
 
 /// The faces of such a cap, without geometry. `start`: border vertex at the grid's first corner; `width`,
 /// `height`: squares of the grid; with a ring, 2 (width + height) is #border or one less, otherwise #border.

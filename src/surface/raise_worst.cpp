@@ -29,8 +29,8 @@ constexpr double kDamping =
 
 class Search {
  public:
-  Search(QuadPatch& patch, const WantedSurface& surface)
-      : patch_(patch), surface_(surface), faces_(patch.positions.size()) {
+  Search(QuadPatch& patch, const WantedSurface& surface, const PatchMirror* mirror)
+      : patch_(patch), surface_(surface), mirror_(mirror), faces_(patch.positions.size()) {
     for (std::size_t f = 0; f < face_count(); ++f)
       for (const std::int32_t v : face(f)) faces_[v].push_back(f);
   }
@@ -44,7 +44,7 @@ class Search {
       double step = kFirstStep;
       for (int round = 0; round < kRounds; ++round, step *= kShrink)
         for (std::size_t v = patch_.fixed; v < patch_.positions.size(); ++v)
-          if (!faces_[v].empty()) descend(static_cast<std::int32_t>(v), step);
+          if (!faces_[v].empty() && is_leading(v)) descend(static_cast<std::int32_t>(v), step);
     }
   }
 
@@ -53,6 +53,18 @@ class Search {
   std::span<const std::int32_t> face(std::size_t f) const {
     if (f < patch_.quads.size()) return patch_.quads[f];
     return patch_.triangles[f - patch_.quads.size()];
+  }
+
+  // Of a vertex and its image the one that is moved.
+  bool is_leading(std::size_t v) const {
+    return !mirror_ || mirror_->image[v] >= static_cast<std::int32_t>(v);
+  }
+
+  void move(std::int32_t v, const Vec3& place) {
+    patch_.positions[v] = place;
+    if (!mirror_) return;
+    const std::int32_t image = mirror_->image[v];
+    patch_.positions[image] = image == v ? mirror_->plane.onto(place) : mirror_->plane.mirrored(place);
   }
 
   struct Shape {
@@ -135,22 +147,23 @@ class Search {
     const Vec3 start = patch_.positions[v];
     const double reach = step * at->length;
     const auto badness = [&](const Vec3& place) {
-      patch_.positions[v] = place;
+      this->move(v, place);
       return badness_around(v) +
              pass_.rest * kEvenWeight * (place - at->middle).squaredNorm() / (at->length * at->length);
     };
     const double here = badness(start);
-    Vec3 move = Vec3::Zero();
+    Vec3 step_taken = Vec3::Zero();
     for (const Vec3& axis : {at->x, at->y}) {
       const double ahead = badness(start + reach * axis), behind = badness(start - reach * axis);
       const double slope = (ahead - behind) / 2, curvature = ahead + behind - 2 * here;
-      move -= slope / (std::abs(curvature) + std::abs(slope) + pass_.rest * kFlat) * reach * axis;
+      step_taken -= slope / (std::abs(curvature) + std::abs(slope) + pass_.rest * kFlat) * reach * axis;
     }
-    patch_.positions[v] = surface_.project(start + kDamping * move);
+    move(v, surface_.project(start + kDamping * step_taken));
   }
 
   QuadPatch& patch_;
   const WantedSurface& surface_;
+  const PatchMirror* mirror_;
   std::vector<std::vector<std::size_t>> faces_;
   Pass pass_ = kPasses[0];
   std::vector<Vec3> outward_;  // of the faces around the vertex at work
@@ -158,8 +171,17 @@ class Search {
 
 }  // namespace
 
-void raise_worst(QuadPatch& patch, const WantedSurface& surface) {
-  Search(patch, surface).run();
+void raise_worst(QuadPatch& patch, const WantedSurface& surface, const PatchMirror* mirror) {
+  Search(patch, surface, mirror).run();
+}
+
+void polish_symmetric(QuadPatch& patch, const WantedSurface& surface, const PatchMirror& mirror,
+                      bool is_polished) {
+  const WantedSurface both = mirrored(surface, mirror.plane);
+  make_symmetric(patch, mirror);
+  if (is_polished) polish(patch, both.project);
+  make_symmetric(patch, mirror);  // but for rounding it is
+  raise_worst(patch, both, &mirror);
 }
 
 }  // namespace skinforge

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "surface/raise_worst.h"
+#include "surface/symmetric_table.h"
 #include "surface/tube_mesh.h"
 
 namespace skinforge {
@@ -89,6 +90,17 @@ QuadPatch lifted(const TubeMesh& mesh, const TubeChart& chart, const Rows& rows,
   return patch;
 }
 
+// What mirroring does to the points of a border; none when it does not map onto itself.
+std::optional<LoopReflection> reflection_of(const TubeBorder& border, const PatchMirror& borders) {
+  std::vector<std::int32_t> loop, images;
+  for (const TubeBorderPoint& point : border.points) {
+    if (static_cast<std::size_t>(point.vertex) >= borders.image.size()) return std::nullopt;
+    loop.push_back(point.vertex);
+    images.push_back(borders.image[static_cast<std::size_t>(point.vertex)]);
+  }
+  return loop_reflection(loop, images);
+}
+
 // Rows that let the counts meet: stacks need room, and columns between them that go through.
 int least_rows(std::size_t n, std::size_t m) {
   if (n == m) return 2;
@@ -120,12 +132,34 @@ std::optional<TubeTable> QuadTube::table(int rows, const TubeOptions& options) c
   return solve_tube(side_a_, side_b_, rows, options);
 }
 
+std::optional<TubeTable> QuadTube::symmetric_table(int rows, const TubeOptions& options,
+                                                   const PatchMirror& borders) const {
+  if (rows < 2) return std::nullopt;
+  const auto a = reflection_of(domain_->a, borders), b = reflection_of(domain_->b, borders);
+  if (!a || !b) return std::nullopt;
+  return solve_symmetric_tube(side_a_, *a, side_b_, *b, rows, options);
+}
+
+QuadPatch QuadTube::laid(const TubeTable& table, int rows) const {
+  const Rows laid = lay_rows(lengths_, domain_->a.depth, domain_->b.depth, rows);
+  return lifted(mesh_of(table, side_a_, side_b_, laid.share), chart_, laid, *domain_);
+}
+
 QuadPatch QuadTube::made(const TubeTable& table, int rows, const WantedSurface& surface,
                          bool is_polished) const {
-  const Rows laid = lay_rows(lengths_, domain_->a.depth, domain_->b.depth, rows);
-  QuadPatch patch = lifted(mesh_of(table, side_a_, side_b_, laid.share), chart_, laid, *domain_);
+  QuadPatch patch = laid(table, rows);
   if (is_polished) polish(patch, surface.project);
   raise_worst(patch, surface);
+  return patch;
+}
+
+std::optional<QuadPatch> QuadTube::made_symmetric(const TubeTable& table, int rows,
+                                                  const WantedSurface& surface, const PatchMirror& borders,
+                                                  bool is_polished) const {
+  QuadPatch patch = laid(table, rows);
+  const auto mirror = mirror_of(patch, borders);
+  if (!mirror) return std::nullopt;
+  polish_symmetric(patch, surface, *mirror, is_polished);
   return patch;
 }
 

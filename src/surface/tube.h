@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "surface/quad_patch.h"
+#include "surface/patch_mirror.h"
 #include "surface/tube_chart.h"
 #include "surface/tube_domain.h"
 
@@ -23,9 +23,21 @@ class QuadTube {
   /// Columns in that many rows; none when the counts do not meet in them.
   std::optional<TubeTable> table(int rows, const TubeOptions& options) const;
 
+  /// The same, columns mirrored (`solve_symmetric_tube`), `borders` naming the images of the fixed vertices;
+  /// none, too, when that does not map each border onto itself.
+  std::optional<TubeTable> symmetric_table(int rows, const TubeOptions& options,
+                                           const PatchMirror& borders) const;
+
   /// The tube of a table. Vertices: the fixed ones of the domain, those of its seams, the new ones.
   /// `is_polished`: places are evened out first, which serves all but thin and sharp shapes.
   QuadPatch made(const TubeTable& table, int rows, const WantedSurface& surface, bool is_polished) const;
+
+  /// The same, with the images of new vertices exactly across the plane; none when the table is not mirrored.
+  std::optional<QuadPatch> made_symmetric(const TubeTable& table, int rows, const WantedSurface& surface,
+                                          const PatchMirror& borders, bool is_polished) const;
+
+  /// The same as it lies on the domain, not smoothed yet.
+  QuadPatch laid(const TubeTable& table, int rows) const;
 
  private:
   QuadTube(const TubeDomain& domain, TubeChart chart) : domain_(&domain), chart_(std::move(chart)) {}

@@ -14,17 +14,6 @@ namespace {
 
 using Path = std::vector<std::int32_t>;
 
-// Depth of the first preserved row, so rows go on at the same pace; near the border's own edges where that
-// row is much deeper or flatter than they are.
-double row_depth(const JunctionLoop& loop) {
-  const double edge = loop_length(loop.positions) / static_cast<double>(loop.positions.size());
-  double sum = 0;
-  int count = 0;
-  for (std::size_t v = 0; v < loop.positions.size(); ++v)
-    for (const Vec3& p : loop.inward[v]) sum += (p - loop.positions[v]).norm(), ++count;
-  return count == 0 ? edge : std::clamp(sum / count, edge / 2, 2 * edge);
-}
-
 double length_of(const TrianglePatch& patch, const Path& path) {
   double length = 0;
   for (std::size_t k = 0; k + 1 < path.size(); ++k)
@@ -160,24 +149,6 @@ void cut_open(TrianglePatch& patch, const Path& path, std::vector<std::int32_t>&
   for (const auto& [corner, vertex] : renamed) patch.triangles[corner / 3][corner % 3] = vertex;
 }
 
-// Evenly spaced places along a run of boundary vertices, ends left out.
-std::vector<double> spaced(const TrianglePatch& patch, const IndexLoop& loop, std::size_t begin,
-                           std::size_t edges, int pieces) {
-  std::vector<double> until = {0};
-  for (std::size_t k = 0; k < edges; ++k)
-    until.push_back(until.back() + (patch.positions[loop[(begin + k) % loop.size()]] -
-                                    patch.positions[loop[(begin + k + 1) % loop.size()]])
-                                       .norm());
-  std::vector<double> places;
-  std::size_t k = 0;
-  for (int p = 1; p < pieces; ++p) {
-    const double wanted = until.back() * p / pieces;
-    while (k + 2 < until.size() && until[k + 1] < wanted) ++k;
-    places.push_back(static_cast<double>(begin + k) + (wanted - until[k]) / (until[k + 1] - until[k]));
-  }
-  return places;
-}
-
 // The seams of one domain as vertices of the result.
 struct Seam {
   Path path;
@@ -206,7 +177,7 @@ TubeBorder border_of(const TubeDomain& domain, const IndexLoop& loop,
       const bool forwards = seam.path.front() == v && seam.path.back() == next;
       const bool backwards = seam.path.back() == v && seam.path.front() == next;
       if ((!forwards && !backwards) || seam.path.size() != edges + 1) continue;
-      const auto places = spaced(domain.patch, l, k, edges, seam.pieces);
+      const auto places = spaced_places(domain.patch, l, k, edges, seam.pieces);
       for (std::size_t p = 0; p < places.size(); ++p)
         border.points.push_back(
             {places[p], seam.first + static_cast<std::int32_t>(forwards ? p : places.size() - 1 - p)});
@@ -214,15 +185,6 @@ TubeBorder border_of(const TubeDomain& domain, const IndexLoop& loop,
     k += edges;
   }
   return border;
-}
-
-void turn_round(TubeBorder& border) {
-  std::reverse(border.loop.begin(), border.loop.end());
-  const double last = static_cast<double>(border.loop.size() - 1);
-  for (TubeBorderPoint& point : border.points)
-    point.place = std::fmod(last - point.place + last + 1, last + 1);
-  std::sort(border.points.begin(), border.points.end(),
-            [](const TubeBorderPoint& p, const TubeBorderPoint& q) { return p.place < q.place; });
 }
 
 // Mean edge and mean depth of the preserved row, over all loops but one.
@@ -247,7 +209,7 @@ Pace pace_of_others(const std::vector<JunctionLoop>& loops, std::size_t alone) {
 Seam lay_seam(TubeDomain& domain, const TrianglePatch& patch, const Path& path, double edge) {
   const int pieces = std::max(1, static_cast<int>(std::lround(length_of(patch, path) / edge)));
   const Seam seam{path, pieces, static_cast<std::int32_t>(domain.fixed + domain.seams.size())};
-  for (const double place : spaced(patch, path, 0, path.size() - 1, pieces)) {
+  for (const double place : spaced_places(patch, path, 0, path.size() - 1, pieces)) {
     const auto k = static_cast<std::size_t>(place);
     const Vec3 &p = patch.positions[path[k]], &q = patch.positions[path[k + 1]];
     domain.seams.emplace_back(p + (place - static_cast<double>(k)) * (q - p));
@@ -282,6 +244,41 @@ std::optional<TubeDomain> domain_against(const TrianglePatch& patch, const std::
 }
 
 }  // namespace
+
+double row_depth(const JunctionLoop& loop) {
+  const double edge = loop_length(loop.positions) / static_cast<double>(loop.positions.size());
+  double sum = 0;
+  int count = 0;
+  for (std::size_t v = 0; v < loop.positions.size(); ++v)
+    for (const Vec3& p : loop.inward[v]) sum += (p - loop.positions[v]).norm(), ++count;
+  return count == 0 ? edge : std::clamp(sum / count, edge / 2, 2 * edge);
+}
+
+std::vector<double> spaced_places(const TrianglePatch& patch, const IndexLoop& loop, std::size_t begin,
+                                  std::size_t edges, int pieces) {
+  std::vector<double> until = {0};
+  for (std::size_t k = 0; k < edges; ++k)
+    until.push_back(until.back() + (patch.positions[loop[(begin + k) % loop.size()]] -
+                                    patch.positions[loop[(begin + k + 1) % loop.size()]])
+                                       .norm());
+  std::vector<double> places;
+  std::size_t k = 0;
+  for (int p = 1; p < pieces; ++p) {
+    const double wanted = until.back() * p / pieces;
+    while (k + 2 < until.size() && until[k + 1] < wanted) ++k;
+    places.push_back(static_cast<double>(begin + k) + (wanted - until[k]) / (until[k + 1] - until[k]));
+  }
+  return places;
+}
+
+void turn_round(TubeBorder& border) {
+  std::reverse(border.loop.begin(), border.loop.end());
+  const double last = static_cast<double>(border.loop.size() - 1);
+  for (TubeBorderPoint& point : border.points)
+    point.place = std::fmod(last - point.place + last + 1, last + 1);
+  std::sort(border.points.begin(), border.points.end(),
+            [](const TubeBorderPoint& p, const TubeBorderPoint& q) { return p.place < q.place; });
+}
 
 std::vector<TubeDomain> tube_domains(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops) {
   std::vector<TubeDomain> domains;

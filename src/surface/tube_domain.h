@@ -34,4 +34,16 @@ struct TubeDomain {
 /// would touch.
 std::vector<TubeDomain> tube_domains(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops);
 
+/// Depth of the first preserved row behind a border, so that rows go on at the same pace; near the border's
+/// own edges where that row is much deeper or flatter than they are. Metres.
+double row_depth(const JunctionLoop& loop);
+
+/// Evenly spaced places, in vertices of the loop, along `edges` of its edges from vertex `begin` on, that cut
+/// them into `pieces`; ends left out.
+std::vector<double> spaced_places(const TrianglePatch& patch, const IndexLoop& loop, std::size_t begin,
+                                  std::size_t edges, int pieces);
+
+/// The same border run along the other way.
+void turn_round(TubeBorder& border);
+
 }  // namespace skinforge

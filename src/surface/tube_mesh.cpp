@@ -53,12 +53,18 @@ class Builder {
     SF_EXPECT(a == n() && b == m());
   }
 
-  // Neighbouring stacks lose their edges in rows far from each other: steps of the golden ratio.
+  // Neighbouring stacks lose their edges in rows far from each other: steps of the golden ratio. Images lose
+  // theirs in the same row.
   void place_stacks() {
     constexpr double kGolden = 0.6180339887498949;
     double turn = 0;
-    for (Column& column : columns_) {
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      Column& column = columns_[k];
       if (column.op.kind == TubeOpKind::Match) continue;
+      if (table_.mirror_sum && *table_.mirror_sum - k < k) {
+        column.first_row = columns_[*table_.mirror_sum - k].first_row;
+        continue;
+      }
       const bool on_a = column.from_a > 0;
       const TubeSide& side = on_a ? a_ : b_;
       const int choices = std::max(1, rows_ - 1 - column.op.depth);
@@ -96,7 +102,8 @@ class Builder {
 
   std::int32_t vertex(int row, int k) const {
     const int inside = k % count_[row];
-    if (row == 0) return inside;
+    if (row == 0)
+      return static_cast<std::int32_t>((table_.first + static_cast<std::size_t>(inside)) % a_.theta.size());
     if (row == rows_)
       return n() +
              static_cast<std::int32_t>((table_.start + static_cast<std::size_t>(inside)) % b_.theta.size());
@@ -136,7 +143,10 @@ class Builder {
     }
   }
 
-  double theta_a(int i) const { return a_.theta[static_cast<std::size_t>(i % n())] + i / n(); }
+  double theta_a(int i) const {
+    const int k = static_cast<int>(table_.first) + i;
+    return a_.theta[static_cast<std::size_t>(k % n())] + k / n();
+  }
   double theta_b(int j) const {
     const int k = static_cast<int>(table_.start) + j;
     return b_.theta[static_cast<std::size_t>(k % m())] + k / m() + turns_;

@@ -29,13 +29,16 @@ struct TubeOp {
   bool operator==(const TubeOp&) const = default;
 };
 
-/// Columns of a tube, once around. They begin at vertex 0 of A and at vertex `start` of B.
+/// Columns of a tube, once around. They begin at vertex `first` of A and at vertex `start` of B.
 struct TubeTable {
-  std::size_t start = 0;
+  std::size_t first = 0, start = 0;
   std::vector<TubeOp> ops;
   double cost = 0;
+  std::optional<std::size_t> mirror_sum;  ///< in a mirrored table columns k and `mirror_sum` - k are images
 
-  bool operator==(const TubeTable& other) const { return start == other.start && ops == other.ops; }
+  bool operator==(const TubeTable& other) const {
+    return first == other.first && start == other.start && ops == other.ops;
+  }
 };
 
 struct TubeOptions {

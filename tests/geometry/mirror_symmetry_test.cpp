@@ -27,8 +27,8 @@ std::vector<Vec3> symmetric_cloud() {
 TEST(FindMirrorSymmetry, PlaneAndPartnersByHand) {
   const auto mirror = find_mirror_symmetry(symmetric_cloud());
   ASSERT_TRUE(mirror);
-  EXPECT_EQ(mirror->normal, Vec3::UnitX());
-  EXPECT_NEAR(mirror->offset, 3, 0.01);
+  EXPECT_EQ(mirror->plane.normal, Vec3::UnitX());
+  EXPECT_NEAR(mirror->plane.offset, 3, 0.01);
   EXPECT_EQ(mirror->matched, 1);
   EXPECT_EQ(mirror->partner[0], VertexId(1));
   EXPECT_EQ(mirror->partner[7], VertexId(6));
@@ -43,7 +43,7 @@ TEST(FindMirrorSymmetry, RotatedCloud) {
   for (const Vec3& p : points) turned.push_back(turn * p);
   const auto mirror = find_mirror_symmetry(turned);
   ASSERT_TRUE(mirror);
-  EXPECT_NEAR(std::abs(mirror->normal.dot(turn * Vec3::UnitX())), 1, 1e-6);
+  EXPECT_NEAR(std::abs(mirror->plane.normal.dot(turn * Vec3::UnitX())), 1, 1e-6);
   EXPECT_EQ(mirror->partner, find_mirror_symmetry(points)->partner);
 }
 
@@ -70,12 +70,12 @@ TEST(FindMirrorSymmetry, RealCharacter) {
   const auto mirror = find_mirror_symmetry(mesh.positions);
   ASSERT_TRUE(mirror);
   EXPECT_GE(mirror->matched, 0.98);
-  EXPECT_NEAR(mirror->normal.x(), 1, 1e-6);
+  EXPECT_NEAR(mirror->plane.normal.x(), 1, 1e-6);
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const VertexId u = mirror->partner[v];
     if (!u.is_valid()) continue;
     EXPECT_EQ(mirror->partner[u.index()], VertexId(v));
-    EXPECT_LT((mirror->mirrored(mesh.positions[v]) - mesh.positions[u.index()]).norm(),
+    EXPECT_LT((mirror->plane.mirrored(mesh.positions[v]) - mesh.positions[u.index()]).norm(),
               1e-3 * mesh.diagonal());
   }
 }

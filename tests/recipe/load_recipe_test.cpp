@@ -80,7 +80,7 @@ TEST(LoadRecipe, ReadsEveryKey) {
   EXPECT_THAT(replace.at, ElementsAre("Neck1"));
   EXPECT_EQ(replace.from, "man");
   EXPECT_EQ(replace.joint, "Spine");
-  EXPECT_EQ(replace.blend, Blend::Blend);
+  EXPECT_EQ(replace.blend, Blend());
   EXPECT_EQ(replace.place.align, Align::Loop);
   EXPECT_TRUE(replace.place.scale_by_loop);
   EXPECT_EQ(replace.place.scale, 1);
@@ -107,7 +107,7 @@ TEST(LoadRecipe, ReadsEveryKey) {
 TEST(LoadRecipe, LeavesDefaults) {
   const Recipe recipe = parse(with_operation(R"({"op": "replace", "at": "j", "from": "b", "joint": "k"})"));
   EXPECT_EQ(recipe.operations[0].place, Placement());
-  EXPECT_EQ(recipe.operations[0].blend, Blend::Auto);
+  EXPECT_EQ(recipe.operations[0].blend, Blend());
   EXPECT_EQ(recipe.surface, SurfaceOptions());
   EXPECT_EQ(recipe.animation, AnimationOptions());
   EXPECT_EQ(recipe.output, (OutputOptions{.glb = "x.glb", .obj = "", .vdb = "", .influences = 4}));
@@ -202,6 +202,10 @@ TEST(LoadRecipe, NamesPlaceWantedAndFound) {
               HasSubstr("expected a number from -1000000000 to 1000000000"));
   EXPECT_THAT(op(part + R"("blend": true)"), HasSubstr("expected one of \"auto\", \"blend\""));
   EXPECT_THAT(op(part + R"("blend": "union")"), HasSubstr("\"op\": \"attach\" unites"));
+  EXPECT_THAT(op(part + R"("blend": {"radius": 0})"), HasSubstr("a number above 0"));
+  EXPECT_THAT(op(part + R"("blend": {"operator": "paper", "radius": 0.1})"),
+              HasSubstr("\"paper\" has no fillet"));
+  EXPECT_THAT(op(part + R"("blend": {"operater": "smin"})"), HasSubstr("nearest: \"operator\""));
   EXPECT_THAT(op(R"("replace", "at": "j", "from": "a", "joint": "j")"), HasSubstr("of the base by itself"));
   EXPECT_THAT(op(part + R"("surface": {"hardnes": 1})"), HasSubstr("(nearest: \"hardness\""));
   EXPECT_THAT(op(part + R"("surface": {"hardness": 1})"), HasSubstr("expected a number from -0.9 to 0.9"));

@@ -130,6 +130,7 @@ TEST(RecipeSchema, AgreesWithTheParser) {
       {"placement", operation(kPart + R"("place": {"align": "none", "scale": 2, "rotate_deg": [1, 2, 3]})"),
        true},
       {"scale by loop", operation(kPart + R"("place": {"scale": "loop"}, "blend": "blend")"), true},
+      {"blend operator", operation(kPart + R"("blend": {"operator": "gradient", "radius": 0.1})"), true},
       {"all options",
        member(R"("surface": {"voxel_factor": 1, "presence_smoothing": 0, "keep_or_drop": {"mean": 0}},
                  "animation": {"clips": [], "complete": false, "rate_hz": 60}, "output": {"glb": "a/b.glb", "influences": 8})"),

@@ -58,6 +58,7 @@ inline Report sample_report() {
   j.scaled_jacobian = distribution_of({0.5, 0.75, 1.0});
   j.deviation = distribution_of({0.1, 0.2, 0.4});
   j.border_color_step = {42, 0.5, 2, 3.25};
+  j.symmetry = {1, "", {1, 0, 0}, 0.25, 0.98, true, 0.0, 0.0, 0.001};
   r.junctions.push_back(j);
   r.mesh = {1500, 1490, 1400, 90, 1430, 1430.0 / 1490, 1, 12, 0, {1.7, 2.9, 2.4}};
   r.weights = {4, 12, 0.125, 1.0, 1.0, 0, {"Helper"}, 0.5, 0.75, 0.625, 1};

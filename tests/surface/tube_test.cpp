@@ -3,29 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "surface/remesh.h"
-#include "surface/ring_zip.h"
-#include "surface/shapes.h"
 #include "surface/tube_chart.h"
 #include "surface/tube_mesh.h"
+#include "surface/tube_scenes.h"
 
 namespace skinforge {
 namespace {
 
 constexpr double kStraight = std::numbers::pi;
 
-TubeSide even_side(int count, double turn = 0) {
-  TubeSide side;
-  for (int k = 0; k < count; ++k) side.theta.push_back(turn + static_cast<double>(k) / count);
-  side.angle.assign(side.theta.size(), kStraight);
-  return side;
-}
-
-std::vector<double> even_heights(int rows) {
-  std::vector<double> heights;
-  for (int r = 0; r <= rows; ++r) heights.push_back(static_cast<double>(r) / rows);
-  return heights;
-}
+using testing::even_heights;
+using testing::even_side;
+using testing::Wall;
 
 int count_of(const TubeTable& table, TubeOpKind kind) {
   return static_cast<int>(
@@ -107,37 +96,6 @@ TEST_P(TubeCounts, AnyCountsGiveAWatertightTube) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Random, TubeCounts, ::testing::Range(0, 200));
-
-// The wall of a cylinder of radius 1 about the y axis, remeshed: borders of n and m vertices.
-struct Wall {
-  std::vector<JunctionLoop> loops;
-  TrianglePatch domain;
-
-  static Vec3 onto(const Vec3& p) {
-    const double radius = std::hypot(p.x(), p.z());
-    return {p.x() / radius, p.y(), p.z() / radius};
-  }
-
-  static WantedSurface surface() {
-    return {onto, [](const Vec3& p) { return Vec3(p.x(), 0, p.z()); }};
-  }
-
-  Wall(int n, int m, double height, double turn = 0.1) {
-    const std::vector<Vec3> low = testing::ring(n);
-    std::vector<Vec3> high = testing::ring(m, 1, height, turn), both = low;
-    both.insert(both.end(), high.begin(), high.end());
-    const TrianglePatch wall{both, zip_rings(low, high, nullptr), both.size()};
-    domain = remesh(wall, onto, {.length_scale = 0.5});
-    std::reverse(both.begin() + n, both.end());  // a loop runs as the new faces do
-    std::reverse(high.begin(), high.end());
-    for (Triangle& t : domain.triangles)
-      for (std::int32_t& v : t)
-        if (v >= n && v < n + m) v = 2 * n + m - 1 - v;
-    std::copy(both.begin(), both.end(), domain.positions.begin());
-    loops = {{SourceId(0), true, {}, low, std::vector<std::vector<Vec3>>(low.size())},
-             {SourceId(1), false, {}, high, std::vector<std::vector<Vec3>>(high.size())}};
-  }
-};
 
 IndexLoop up_to(std::int32_t first, std::int32_t end) {
   IndexLoop loop;
