@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "animation/completed_part.h"
+#include "animation/key_reduction.h"
+#include "animation/keyframe_choice.h"
 #include "animation/resampling.h"
 #include "animation/sampling.h"
 #include "base/expect.h"
@@ -65,23 +67,38 @@ FastestTurn fastest_turn_of(const Clip& clip, const ClipFrames& grid) {
   return fastest;
 }
 
-std::vector<SourceId> sources_of(const Graft& graft, std::size_t input) {
-  std::vector<SourceId> sources;
-  for (std::size_t k = 0; k < graft.sources.size(); ++k)
-    if (graft.sources[k].input == input) sources.push_back(SourceId(k));
-  return sources;
+// Keys that move the skin by less than the tolerance go.
+void leave_out_keys(std::span<const Character* const> characters, const Graft& graft,
+                    std::span<const MotionSet* const> motions, const std::vector<bool>& is_completed,
+                    const ClipFrames& keys, const CompletionOptions& options, Clip& clip) {
+  std::vector<double> times, radii;
+  for (std::size_t k = 0; k < keys.count; ++k) times.push_back(keys.time(k));
+  for (const JointOrigin& origin : graft.origins) {
+    const std::size_t s = origin.source.index();
+    radii.push_back(graft.sources[s].model_from_input.scale * motions[s]->skin_radius[origin.joint.index()]);
+  }
+  const GraftSource& base = graft.sources.front();
+  const double diagonal = base.model_from_input.scale * characters[base.input]->mesh.diagonal();
+  reduce_keys(clip, graft.skeleton, is_completed, times, radii, options.key_tolerance * diagonal);
 }
 
 void complete_other_parts(std::span<const Character* const> characters, const Graft& graft,
-                          std::span<const MotionSet* const> motions, const DrivingClip& driver,
+                          std::span<const MotionSet* const> motions, const Casting& casting,
                           const CompletionOptions& options, CompletedClip& result) {
-  const auto parts = parts_to_complete(graft, driver.input);
-  for (const PartToComplete& part : parts) {
-    CompletedPart completed = complete_part(characters, graft, motions, driver, part, options);
+  const Clip& source_clip = characters[casting.driver.input]->clips[casting.driver.clip];
+  const ClipFrames keys(source_clip.duration, options.key_rate_hz.value_or(kSearchRate));
+  std::vector<bool> is_completed(graft.skeleton.size(), false);
+  for (const PartToComplete& part : casting.parts) {
+    CompletedPart completed = complete_part(characters, graft, motions, casting.driver, part, keys, options);
+    for (const JointTracks& tracks : completed.joints) is_completed[tracks.joint.index()] = true;
     std::move(completed.joints.begin(), completed.joints.end(), std::back_inserter(result.clip.joints));
     std::move(completed.choices.begin(), completed.choices.end(), std::back_inserter(result.record.choices));
-    result.record.mean_distance += completed.mean_distance / static_cast<double>(parts.size());
+    result.record.mean_distance += completed.mean_distance / static_cast<double>(casting.parts.size());
+    result.record.jumps += completed.jumps;
+    result.record.cutting_frames += completed.cutting_frames;
   }
+  if (!casting.parts.empty())
+    leave_out_keys(characters, graft, motions, is_completed, keys, options, result.clip);
 }
 
 }  // namespace
@@ -92,7 +109,7 @@ CompletedClip complete_clip(std::span<const Character* const> characters, const 
   SF_EXPECT(input < characters.size() && clip < characters[input]->clips.size());
   SF_EXPECT(motions.size() == graft.sources.size());
   const Clip& source_clip = characters[input]->clips[clip];
-  const DrivingClip driver{input, clip, sources_of(graft, input)};
+  const Casting casting = cast_sources(characters, graft, input, clip, options);
   CompletedClip result;
   result.clip = {name, source_clip.duration, {}, source_clip.morphs};
   result.record.clip = name;
@@ -100,14 +117,17 @@ CompletedClip complete_clip(std::span<const Character* const> characters, const 
   result.record.source_clip = source_clip.name;
   result.record.duration = source_clip.duration;
 
-  for (const SourceId source : driver.sources)
+  for (const SourceId source : casting.driver.sources)
     copy_driving_tracks(source_clip, graft, source, result.clip.joints);
-  if (options.complete && !driver.sources.empty())
-    complete_other_parts(characters, graft, motions, driver, options, result);
+  if (!casting.driver.sources.empty()) {
+    const MotionSet& set = *motions[casting.driver.sources.front().index()];
+    result.record.is_loop = driver_frames(*characters[input], set, casting.driver, options).is_loop;
+    if (options.complete) complete_other_parts(characters, graft, motions, casting, options, result);
+  }
   std::sort(result.clip.joints.begin(), result.clip.joints.end(),
             [](const JointTracks& a, const JointTracks& b) { return a.joint < b.joint; });
 
-  const FastestTurn fastest = fastest_turn_of(result.clip, ClipFrames(source_clip.duration, options.rate_hz));
+  const FastestTurn fastest = fastest_turn_of(result.clip, ClipFrames(source_clip.duration, kSearchRate));
   result.record.fastest_turn = fastest.speed;
   if (fastest.joint.is_valid()) result.record.fastest_joint = graft.skeleton[fastest.joint].name;
   for (const MotionSet* set : motions)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,14 +20,60 @@ enum class KeyframeChoice : std::uint8_t {
   Frame,     ///< the paper's: the best keyframe for each frame on its own
 };
 
+constexpr double kSearchRate = 30;  ///< frames a second that are compared (Sec. 8.1)
+
+/// What the clips of one input may be used for in one completion.
+struct ClipChoice {
+  std::vector<std::size_t> use;     ///< clips that keyframes may come from; empty: all
+  std::optional<std::size_t> with;  ///< clip that is played as it is, without a search
+
+  template <class Archive>
+  friend void fields(Archive& a, ClipChoice& c) {
+    a(c.use, c.with);
+  }
+};
+
+/// How one clip is completed.
 struct CompletionOptions {
-  double rate_hz = 30;   ///< resampling for the comparison (Sec. 8.1)
   bool complete = true;  ///< false: the other parts stay in their bind pose
   KeyframeChoice choice = KeyframeChoice::Sequence;
+  std::optional<double> key_rate_hz;       ///< of completed tracks; by default `kSearchRate`
+  std::array<double, 2> tempo = {0.5, 2};  ///< of the part's clips, slowest in [0.5, 1] and fastest in [1, 2]
+  std::optional<bool> loop;                ///< whether the clip is a loop; by default as its poses say
+  /// Share of a step by which limbs that the body has twice follow each other, 0 = alike; by default 1 / (how
+  /// many there are of a kind).
+  std::optional<double> limb_phase;
+  double key_tolerance = 1e-4;    ///< what leaving out keys may move, of the base's diagonal
+  std::vector<ClipChoice> clips;  ///< per input; empty: anything goes
 
   template <class Archive>
   friend void fields(Archive& a, CompletionOptions& o) {
-    a(o.rate_hz, o.complete, o.choice);
+    a(o.complete, o.choice, o.key_rate_hz, o.tempo, o.loop, o.limb_phase, o.key_tolerance, o.clips);
+  }
+};
+
+/// What a foot does in the clips of its own input: a joint whose skin is near the ground in the bind pose.
+struct Foot {
+  JointId joint;       ///< of the input
+  double lowest = 0;   ///< height of its joint over all clips, at least, metres in the input
+  double ground = 0;   ///< height below which it stands, metres in the input
+  double fastest = 0;  ///< speed along the ground while it stands, over all clips, at most, m/s in the input
+
+  template <class Archive>
+  friend void fields(Archive& a, Foot& f) {
+    a(f.joint, f.lowest, f.ground, f.fastest);
+  }
+};
+
+/// A ball inside the skin of a joint, for asking roughly whether parts cut each other.
+struct SkinBall {
+  JointId joint;               ///< of the input
+  Vec3 center = Vec3::Zero();  ///< in the joint's frame
+  double radius = 0;           ///< metres in the input
+
+  template <class Archive>
+  friend void fields(Archive& a, SkinBall& b) {
+    a(b.joint, b.center, b.radius);
   }
 };
 
@@ -41,11 +89,16 @@ struct MotionSet {
   std::vector<bool> is_cyclic;  ///< #clips: the last pose nearly meets the first; `poses` then close exactly
   std::vector<bool> is_moving;  ///< #clips: the joints that this source brings to the result move
   double fastest_turn = 0;      ///< of any joint of the input between frames, local, rad/s
+  std::vector<double>
+      skin_radius;              ///< #input joints, metres in the input: within it lies the joint's skin, or
+                                ///< what may hang on a joint without skin (a twentieth of the diagonal)
+  std::vector<Foot> feet;       ///< of the input
+  std::vector<SkinBall> balls;  ///< in the skin of the joints that this source brings to the result
 
   template <class Archive>
   friend void fields(Archive& a, MotionSet& m) {
     a(m.clip_begin, m.frame_time, m.poses, m.rotations, m.confidence, m.activity, m.is_cyclic, m.is_moving,
-      m.fastest_turn);
+      m.fastest_turn, m.skin_radius, m.feet, m.balls);
   }
 };
 
@@ -65,16 +118,20 @@ struct CompletionRecord {
       a(c.source, c.time, c.clip, c.clip_time);
     }
   };
-  std::vector<Choice> choices;     ///< per completed source, one per resampled frame
-  double mean_distance = 0;        ///< mean keyframe distance of the choices, 0 = alike
-  double fastest_turn = 0;         ///< of any joint in the result clip, rad/s
+  std::vector<Choice> choices;  ///< per completed source, one per resampled frame
+  double mean_distance = 0;     ///< mean keyframe distance of the choices, 0 = alike
+  std::int64_t cutting_frames =
+      0;                    ///< in which parts were about to cut each other, so that others were sought
+  std::int64_t jumps = 0;   ///< between the choices of all parts: steps that no clip makes
+  bool is_loop = false;     ///< completed as one
+  double fastest_turn = 0;  ///< of any joint in the result clip, rad/s
   double fastest_source_turn = 0;  ///< of any joint in any clip of the inputs, rad/s
   std::string fastest_joint;
 
   template <class Archive>
   friend void fields(Archive& a, CompletionRecord& r) {
-    a(r.clip, r.input, r.source_clip, r.duration, r.choices, r.mean_distance, r.fastest_turn,
-      r.fastest_source_turn, r.fastest_joint);
+    a(r.clip, r.input, r.source_clip, r.duration, r.choices, r.mean_distance, r.cutting_frames, r.jumps,
+      r.is_loop, r.fastest_turn, r.fastest_source_turn, r.fastest_joint);
   }
 };
 
@@ -90,8 +147,7 @@ struct CompletedClip {
 
 /// Resamples all clips of `source`'s input and maps them through its joint map (Sec. 8.1: several joints on
 /// one image cumulate their rotations, images that no joint reaches get the identity).
-MotionSet build_motion_set(const Character& input, const Graft& graft, SourceId source, const JointMap& map,
-                           const CompletionOptions& options);
+MotionSet build_motion_set(const Character& input, const Graft& graft, SourceId source, const JointMap& map);
 
 /// Completes clip `clip` of input `input` (Sec. 8): all sources of that input keep their own tracks bit for
 /// bit (the top joint of a grafted sub-tree by the formula of completion.md), every other source is driven by

@@ -4,14 +4,16 @@
 #include <array>
 #include <cmath>
 
+#include "animation/lanes.h"
 #include "base/expect.h"
+#include "base/parallel.h"
 
 namespace skinforge {
 namespace {
 
-// Candidates handled together; fixed, so that compilers use vector registers.
-constexpr std::size_t kBlock = 16;
-using Block = Eigen::Array<float, kBlock, 1>;
+constexpr std::size_t kBlock = Lanes::kCount;  // candidates handled together
+constexpr std::size_t kQueries = 4;            // frames compared with a block while it is at hand
+constexpr std::size_t kRowsAtOnce = 32;        // ours: of a table, by one thread
 constexpr double kMinWeight =
     0.01;  // ours: of the largest; joints below change the distance in the third digit
 
@@ -57,8 +59,9 @@ std::int32_t step_or_stay(const std::vector<std::int32_t>& steps, std::int32_t f
 }
 
 // Per frame, where it is after -2, -1, 0, 1, 2 steps.
-std::vector<std::array<std::int32_t, 5>> neighbourhoods(const FrameSteps& steps) {
-  std::vector<std::array<std::int32_t, 5>> all;
+using Neighbourhood = std::array<std::int32_t, 5>;
+std::vector<Neighbourhood> neighbourhoods(const FrameSteps& steps) {
+  std::vector<Neighbourhood> all;
   for (std::size_t f = 0; f < steps.next.size(); ++f) {
     const auto here = static_cast<std::int32_t>(f);
     const std::int32_t before = step_or_stay(steps.previous, here), after = step_or_stay(steps.next, here);
@@ -66,6 +69,33 @@ std::vector<std::array<std::int32_t, 5>> neighbourhoods(const FrameSteps& steps)
         {step_or_stay(steps.previous, before), before, here, after, step_or_stay(steps.next, after)});
   }
   return all;
+}
+
+// Candidates [begin, end) whose k-th neighbours lie side by side, the first at `from`: whole rows are added
+// at once.
+struct NeighbourRun {
+  std::size_t begin, end, from;
+};
+
+std::array<std::vector<NeighbourRun>, 5> neighbour_runs(const std::vector<Neighbourhood>& columns) {
+  std::array<std::vector<NeighbourRun>, 5> runs;
+  for (std::size_t k = 0; k < 5; ++k)
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto at = static_cast<std::size_t>(columns[c][k]);
+      const bool goes_on = !runs[k].empty() && at == runs[k].back().from + (c - runs[k].back().begin);
+      if (!goes_on) runs[k].push_back({c, c, at});
+      ++runs[k].back().end;
+    }
+  return runs;
+}
+
+void add_runs(float weight, std::span<const float> row, std::span<const NeighbourRun> runs,
+              std::span<float> sums) {
+  for (const NeighbourRun& run : runs) {
+    const auto length = static_cast<Eigen::Index>(run.end - run.begin);
+    Eigen::Map<Eigen::ArrayXf>(sums.data() + run.begin, length) +=
+        weight * Eigen::Map<const Eigen::ArrayXf>(row.data() + run.from, length);
+  }
 }
 
 // Sum of weight * |w| per frame: the similarity to the identity, which is every joint's usual stance.
@@ -113,22 +143,53 @@ std::size_t RotationTable::padded_count() const {
   return (frames_ + kBlock - 1) / kBlock * kBlock;
 }
 
-void RotationTable::add_similarities(std::span<const float> query, std::span<float> sums) const {
-  const std::size_t joints = weights_.size();
-  SF_EXPECT(query.size() == joints * 4 && sums.size() == padded_count());
-  std::vector<float> weighted(query.size());
-  for (std::size_t v = 0; v < query.size(); ++v) weighted[v] = weights_[v / 4] * query[v];
-  const float* values = packed_.data();
-  for (std::size_t block = 0; block < sums.size(); block += kBlock) {
-    Block sum = Eigen::Map<const Block>(sums.data() + block);
-    for (std::size_t j = 0; j < joints; ++j, values += 4 * kBlock) {
-      const float* q = weighted.data() + 4 * j;
-      sum += (q[0] * Eigen::Map<const Block>(values) + q[1] * Eigen::Map<const Block>(values + kBlock) +
-              q[2] * Eigen::Map<const Block>(values + 2 * kBlock) +
-              q[3] * Eigen::Map<const Block>(values + 3 * kBlock))
-                 .abs();
+namespace {
+
+// |q . q'| of a block's joint and one query.
+[[gnu::always_inline]] inline Lanes similarity(const std::array<Lanes, 4>& block, const float* q) {
+  return abs(block[0] * q[0] + block[1] * q[1] + block[2] * q[2] + block[3] * q[3]);
+}
+
+// sums[query][block] += |q . q'| over the joints of a block, for kQueries queries at once. Written out,
+// because the compiler would keep a loop's sums in memory.
+SKINFORGE_VECTOR_CLONES void add_block(const float* values, const float* queries, std::size_t joints,
+                                       float* const* sums) {
+  static_assert(kQueries == 4);
+  Lanes a = Lanes::load(sums[0]), b = Lanes::load(sums[1]), c = Lanes::load(sums[2]),
+        d = Lanes::load(sums[3]);
+  for (std::size_t j = 0; j < joints; ++j, values += 4 * kBlock, queries += 4) {
+    const std::array<Lanes, 4> block = {Lanes::load(values), Lanes::load(values + kBlock),
+                                        Lanes::load(values + 2 * kBlock), Lanes::load(values + 3 * kBlock)};
+    a = a + similarity(block, queries);
+    b = b + similarity(block, queries + 4 * joints);
+    c = c + similarity(block, queries + 8 * joints);
+    d = d + similarity(block, queries + 12 * joints);
+  }
+  a.store(sums[0]);
+  b.store(sums[1]);
+  c.store(sums[2]);
+  d.store(sums[3]);
+}
+
+}  // namespace
+
+void RotationTable::add_similarities(std::span<const float> queries, std::span<float> sums) const {
+  const std::size_t stride = weights_.size() * 4, padded = padded_count();
+  const std::size_t count = padded == 0 ? 0 : sums.size() / padded;
+  SF_EXPECT(sums.size() == count * padded && (stride == 0 || queries.size() == count * stride));
+  std::vector<float> weighted(kQueries * stride), spare(padded);
+  for (std::size_t first = 0; first < count; first += kQueries) {
+    std::array<float*, kQueries> rows;
+    for (std::size_t k = 0; k < kQueries; ++k) {
+      const bool is_there = first + k < count;
+      rows[k] = is_there ? sums.data() + (first + k) * padded : spare.data();
+      for (std::size_t v = 0; v < stride; ++v)
+        weighted[k * stride + v] = is_there ? weights_[v / 4] * queries[(first + k) * stride + v] : 0.0F;
     }
-    Eigen::Map<Block>(sums.data() + block) = sum;
+    for (std::size_t block = 0; block < padded; block += kBlock) {
+      add_block(packed_.data() + block * stride, weighted.data(), weights_.size(), rows.data());
+      for (float*& row : rows) row += kBlock;
+    }
   }
 }
 
@@ -139,7 +200,6 @@ DistanceTable keyframe_distances(std::span<const MotionPair> pairs, std::size_t 
   table.frame_stance.assign(table.frames, 0.0F);
   table.candidate_stance.assign(table.candidates, 0.0F);
   float total = 0;
-  std::vector<float> sums;
   for (const MotionPair& pair : pairs) {
     const SharedJoints shared = shared_joints(pair);
     if (shared.joints.empty()) continue;
@@ -147,12 +207,15 @@ DistanceTable keyframe_distances(std::span<const MotionPair> pairs, std::size_t 
     const auto queries = gather(*pair.driver, first, count, shared.joints);
     const RotationTable packed(candidates, shared.weights);
     const std::size_t stride = shared.joints.size() * 4;
-    for (std::size_t f = 0; f < count; ++f) {
-      sums.assign(packed.padded_count(), 0.0F);
-      packed.add_similarities(std::span(queries).subspan(f * stride, stride), sums);
-      const auto row = table.row(f);
-      for (std::size_t c = 0; c < row.size(); ++c) row[c] += sums[c];
-    }
+    parallel_chunks(count, kRowsAtOnce, [&](std::size_t begin, std::size_t end) {
+      std::vector<float> sums((end - begin) * packed.padded_count(), 0.0F);
+      packed.add_similarities(std::span(queries).subspan(begin * stride, (end - begin) * stride), sums);
+      for (std::size_t f = begin; f < end; ++f) {
+        const auto row = table.row(f);
+        const float* sum = sums.data() + (f - begin) * packed.padded_count();
+        for (std::size_t c = 0; c < row.size(); ++c) row[c] += sum[c];
+      }
+    });
     add_stance_similarities(queries, shared.weights, table.frame_stance);
     add_stance_similarities(candidates, shared.weights, table.candidate_stance);
     for (const float weight : shared.weights) total += weight;
@@ -164,24 +227,42 @@ DistanceTable keyframe_distances(std::span<const MotionPair> pairs, std::size_t 
   return table;
 }
 
-DistanceTable windowed(const DistanceTable& distances, const FrameSteps& driver_steps,
-                       const FrameSteps& candidate_steps) {
-  const auto rows = neighbourhoods(driver_steps), columns = neighbourhoods(candidate_steps);
-  SF_EXPECT(rows.size() == distances.frames && columns.size() == distances.candidates);
-  const float total = kWindow[0] + 2 * kWindow[1] + 2 * kWindow[2];
-  DistanceTable result{
-      distances.frames, distances.candidates, {}, distances.frame_stance, distances.candidate_stance};
-  result.values.assign(distances.values.size(), 0.0F);
-  for (std::size_t f = 0; f < distances.frames; ++f) {
-    const auto sums = result.row(f);
-    for (std::size_t k = 0; k < 5; ++k) {
-      const float weight = kWindow[k < 2 ? 2 - k : k - 2] / total;
-      const auto row = distances.row(static_cast<std::size_t>(rows[f][k]));
-      for (std::size_t c = 0; c < sums.size(); ++c)
-        sums[c] += weight * row[static_cast<std::size_t>(columns[c][k])];
+double keyframe_distance(std::span<const MotionPair> pairs, std::size_t frame, std::size_t candidate) {
+  double similarity = 0, total = 0;
+  for (const MotionPair& pair : pairs) {
+    const SharedJoints shared = shared_joints(pair);
+    const std::size_t n = pair.driver->confidence.size();
+    for (std::size_t k = 0; k < shared.joints.size(); ++k) {
+      const std::size_t j = shared.joints[k];
+      const Eigen::Map<const Eigen::Vector4f> a(pair.driver->rotations.data() + (frame * n + j) * 4);
+      const Eigen::Map<const Eigen::Vector4f> b(pair.candidate->rotations.data() + (candidate * n + j) * 4);
+      similarity += static_cast<double>(shared.weights[k] * std::abs(a.dot(b)));
+      total += static_cast<double>(shared.weights[k]);
     }
   }
-  return result;
+  return total > 0 ? std::clamp(1 - similarity / total, 0.0, 1.0) : 0;
+}
+
+DistanceTable windowed(DistanceTable table, const FrameSteps& driver_steps,
+                       const FrameSteps& candidate_steps) {
+  const auto rows = neighbourhoods(driver_steps), columns = neighbourhoods(candidate_steps);
+  SF_EXPECT(rows.size() == table.frames && columns.size() == table.candidates);
+  const auto runs = neighbour_runs(columns);
+  const float total = kWindow[0] + 2 * kWindow[1] + 2 * kWindow[2];
+  std::vector<std::vector<float>> plain(table.frames);  // rows as they were, while others need them
+  const auto plain_row = [&](std::int32_t f) {
+    const auto& kept = plain[static_cast<std::size_t>(f)];
+    return kept.empty() ? std::span<const float>(table.row(static_cast<std::size_t>(f))) : kept;
+  };
+  for (std::size_t f = 0; f < table.frames; ++f) {
+    const auto sums = table.row(f);
+    plain[f].assign(sums.begin(), sums.end());
+    std::fill(sums.begin(), sums.end(), 0.0F);
+    for (std::size_t k = 0; k < 5; ++k)
+      add_runs(kWindow[k < 2 ? 2 - k : k - 2] / total, plain_row(rows[f][k]), runs[k], sums);
+    if (f >= 4) plain[f - 2] = {};  // the first two come round again in a loop
+  }
+  return table;
 }
 
 }  // namespace skinforge

@@ -31,16 +31,16 @@ struct FrameSteps {
 };
 FrameSteps frame_steps(const MotionSet& set);
 
-/// Rotations of many frames at some joints, packed so that one frame is compared with all of them at once.
+/// Rotations of many frames at some joints, packed so that frames are compared with all of them at once.
 class RotationTable {
  public:
   /// `frames` x `weights.size()` x 4 numbers (x y z w) of unit quaternions. Weights need not sum to 1.
   RotationTable(std::span<const float> rotations, std::span<const float> weights);
 
   std::size_t frame_count() const { return frames_; }
-  /// Adds to `sums` (one per frame, rounded up to `padded_count`) the weighted |q . q'| with `query` (#joints
-  /// x 4).
-  void add_similarities(std::span<const float> query, std::span<float> sums) const;
+  /// Adds to `sums` (#queries x `padded_count`, one per frame) the weighted |q . q'| with each of `queries`
+  /// (#queries x #joints x 4). Several at once are faster.
+  void add_similarities(std::span<const float> queries, std::span<float> sums) const;
   std::size_t padded_count() const;
 
  private:
@@ -62,10 +62,13 @@ struct MotionPair {
 /// together. No joint in common: all 0. Cost: frames x candidates x joints.
 DistanceTable keyframe_distances(std::span<const MotionPair> pairs, std::size_t first, std::size_t count);
 
+/// One entry of that table: frame `frame` of the drivers (from their first) and candidate `candidate`.
+double keyframe_distance(std::span<const MotionPair> pairs, std::size_t frame, std::size_t candidate);
+
 /// Temporal continuity of Sec. 8.1: adds the distances one step before and after with weight 0.2, two steps
 /// with 0.1, normalised to [0, 1]. `driver_steps` is relative to the table's rows; where a side has no such
-/// step, its end holds.
-DistanceTable windowed(const DistanceTable& distances, const FrameSteps& driver_steps,
+/// step, its end holds. Works in the table it is given (10,000 x 10,000 entries are 400 MB).
+DistanceTable windowed(DistanceTable table, const FrameSteps& driver_steps,
                        const FrameSteps& candidate_steps);
 
 }  // namespace skinforge

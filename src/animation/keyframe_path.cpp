@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "animation/lanes.h"
 #include "base/expect.h"
 
 namespace skinforge {
@@ -14,16 +15,28 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr std::size_t kJumpOrigins = 12;  // ours: cheapest keyframes that a jump may leave from
 constexpr int kPlayedBeforeHold = 10;     // ours: frames; a third of a second at 30 Hz
 constexpr std::size_t kFreeFrames = 60;   // ours: a free search of two seconds forgets its ends
-constexpr std::size_t kBlock = 8;         // two vector registers
+constexpr std::size_t kBlock = Lanes::kCount;
 
-// One frame of the search: for each candidate the cheapest way to it. One slot more, never reached, stands
-// for "none".
-struct Layer {
-  std::vector<float> cost;
-  std::vector<PathStep> step;
-  std::vector<std::int32_t> origin;  // of a Jump
+// Per candidate, behind kMargin entries that are never reached, so that steps back may look before the first.
+constexpr std::size_t kMargin = kBlock;
+using Row = std::vector<float>;
 
-  explicit Layer(std::size_t n) : cost(n + 1, kNever), step(n + 1, PathStep::Next), origin(n + 1, -1) {}
+// What the search knows about one frame.
+struct Front {
+  Row cost;       // of the cheapest way to each candidate
+  Row hold_cost;  // of staying there for another frame; kNever where that would be a second hold
+  std::vector<std::uint8_t> since_hold, since_skip;  // frames, only where the tempo has limits of its own
+};
+
+// The cheapest way to each candidate in one frame, in a byte each, because long clips need many of them: a
+// PathStep, or kJump + k for a jump from the k-th origin.
+constexpr std::uint8_t kJump = static_cast<std::uint8_t>(PathStep::Jump);
+struct Ways {
+  std::vector<std::uint8_t> way;
+  std::vector<std::int32_t> origins;  // of the jumps, at most kJumpOrigins
+
+  PathStep step(std::size_t c) const { return static_cast<PathStep>(std::min(way[c], kJump)); }
+  std::int32_t origin(std::size_t c) const { return origins[static_cast<std::size_t>(way[c] - kJump)]; }
 };
 
 class Search {
@@ -37,12 +50,16 @@ class Search {
 
  private:
   void find_entries(const FrameSteps& steps, bool may_stay);
-  Layer first_layer(std::size_t frame, std::int32_t fixed) const;
-  Layer next_layer(const Layer& before, std::size_t frame) const;
-  void step_on(const Layer& before, Layer& layer) const;
-  void jump_on(const Layer& before, Layer& layer) const;
-  void land(std::size_t origin, float base, std::span<float> to_beat, Layer& layer) const;
-  std::size_t before(std::size_t candidate, const Layer& layer) const;
+  Front first_front(std::size_t frame, std::int32_t fixed) const;
+  Ways go_on(const Front& before, std::size_t frame, Front& front) const;
+  void step_on(const Front& before, Front& front, Ways& ways) const;
+  void step_over_gaps(const Front& before, Front& front, Ways& ways) const;
+  void step_within_limits(const Front& before, Front& front, Ways& ways) const;
+  bool has_limits() const { return costs_.hold_wait != 1 || costs_.skip_wait != 0; }
+  void jump_on(const Front& before, Front& front, Ways& ways) const;
+  void land(std::size_t origin, float base, std::span<float> to_beat, Front& front, Ways& ways) const;
+  void pay(std::size_t frame, const Ways& ways, Front& front) const;
+  std::size_t before(std::size_t candidate, const Ways& ways) const;
 
   const DistanceTable& distances_;
   const LandingCosts& landing_;
@@ -52,6 +69,9 @@ class Search {
   std::vector<std::uint8_t> may_enter_;       // by a jump, or as the first keyframe
   std::vector<std::uint8_t> may_stay_;        // ends of clips, where a Hold may follow a Hold
   std::vector<std::size_t> before_, second_;  // one and two natural steps back, or n_
+  std::vector<std::size_t> gaps_;             // where those are not simply c - 1 and c - 2
+  std::size_t padded_;                        // n_, rounded up to whole blocks
+  std::vector<float> entry_;                  // kNever where a jump may enter, else -kNever
 };
 
 Search::Search(const DistanceTable& distances, const FrameSteps& steps, const std::vector<bool>& allowed,
@@ -62,10 +82,13 @@ Search::Search(const DistanceTable& distances, const FrameSteps& steps, const st
       n_(distances.candidates),
       allowed_(allowed.begin(), allowed.end()),
       may_enter_(allowed_),
-      may_stay_(n_, 0) {
+      may_stay_(n_, 0),
+      padded_((n_ + kBlock - 1) / kBlock * kBlock) {
   for (const std::int32_t previous : steps.previous)
     before_.push_back(previous < 0 ? n_ : static_cast<std::size_t>(previous));
   for (const std::size_t previous : before_) second_.push_back(previous == n_ ? n_ : before_[previous]);
+  for (std::size_t c = 0; c < n_; ++c)
+    if (before_[c] + 1 != c || second_[c] + 2 != c) gaps_.push_back(c);
   find_entries(steps, may_stay);
 }
 
@@ -79,29 +102,61 @@ void Search::find_entries(const FrameSteps& steps, bool may_stay) {
       may_enter_[near_end] = 0;
   }
   if (std::find(may_enter_.begin(), may_enter_.end(), 1) == may_enter_.end()) may_enter_ = allowed_;
+  entry_.assign(padded_, -kNever);
+  for (std::size_t c = 0; c < n_; ++c)
+    if (may_enter_[c]) entry_[c] = kNever;
 }
 
-Layer Search::first_layer(std::size_t frame, std::int32_t fixed) const {
-  Layer layer(n_);
+Front Search::first_front(std::size_t frame, std::int32_t fixed) const {
+  Front front{Row(kMargin + padded_, kNever), Row(kMargin + padded_, kNever), {}, {}};
+  if (has_limits())
+    front.since_hold = front.since_skip = std::vector<std::uint8_t>(n_, PathCosts::kNever - 1);
   for (std::size_t c = 0; c < n_; ++c)
-    if (fixed < 0 ? may_enter_[c] : static_cast<std::size_t>(fixed) == c)
-      layer.cost[c] = distances_.row(frame)[c];
-  return layer;
+    if (fixed < 0 ? may_enter_[c] : static_cast<std::size_t>(fixed) == c) {
+      front.cost[kMargin + c] = distances_.row(frame)[c];
+      front.hold_cost[kMargin + c] = front.cost[kMargin + c] + costs_.tempo;
+    }
+  return front;
+}
+
+constexpr auto kNext = static_cast<std::uint8_t>(PathStep::Next);
+constexpr auto kHold = static_cast<std::uint8_t>(PathStep::Hold);
+constexpr auto kSkip = static_cast<std::uint8_t>(PathStep::Skip);
+
+// The cheapest of natural successor, hold and double speed, `from` the first candidate of a block.
+SKINFORGE_VECTOR_CLONES void step_blocks(const float* before, const float* hold_cost, float tempo,
+                                         std::size_t count, float* cost, std::uint8_t* way) {
+  for (std::size_t c = 0; c < count; c += kBlock) {
+    const Lanes next = Lanes::load(before + c - 1), skip = Lanes::load(before + c - 2) + tempo,
+                hold = Lanes::load(hold_cost + c);
+    const Lanes moved = min(next, skip);
+    min(moved, hold).store(cost + c);
+    const auto skips = skip.v < next.v, holds = hold.v < moved.v;
+    for (std::size_t k = 0; k < kBlock; ++k) way[c + k] = holds[k] ? kHold : (skips[k] ? kSkip : kNext);
+  }
 }
 
 // The ways that follow a clip: natural successor, hold, double speed.
-void Search::step_on(const Layer& before, Layer& layer) const {
-  for (std::size_t c = 0; c < n_; ++c) {
-    if (!allowed_[c]) continue;
-    float best = before.cost[before_[c]];
-    PathStep step = PathStep::Next;
-    const float skip = before.cost[second_[c]] + costs_.tempo;
-    step = skip < best ? PathStep::Skip : step;
-    best = std::min(best, skip);
-    const bool may_hold = before.step[c] != PathStep::Hold || may_stay_[c];
-    const float hold = may_hold ? before.cost[c] + costs_.tempo : kNever;
-    layer.step[c] = hold < best ? PathStep::Hold : step;
-    layer.cost[c] = std::min(best, hold);
+void Search::step_on(const Front& before, Front& front, Ways& ways) const {
+  if (has_limits()) {
+    step_within_limits(before, front, ways);
+  } else {
+    step_blocks(before.cost.data() + kMargin, before.hold_cost.data() + kMargin, costs_.tempo, padded_,
+                front.cost.data() + kMargin, ways.way.data());
+    step_over_gaps(before, front, ways);
+  }
+  for (std::size_t c = 0; c < n_; ++c)
+    if (!allowed_[c]) front.cost[kMargin + c] = kNever;
+  std::fill(front.cost.begin() + static_cast<std::ptrdiff_t>(kMargin + n_), front.cost.end(), kNever);
+}
+
+void Search::step_over_gaps(const Front& before, Front& front, Ways& ways) const {
+  const auto cost_of = [&](std::size_t c) { return c == n_ ? kNever : before.cost[kMargin + c]; };
+  for (const std::size_t c : gaps_) {
+    const float next = cost_of(before_[c]), skip = cost_of(second_[c]) + costs_.tempo;
+    const float hold = before.hold_cost[kMargin + c], moved = std::min(next, skip);
+    front.cost[kMargin + c] = std::min(moved, hold);
+    ways.way[c] = hold < moved ? kHold : (skip < next ? kSkip : kNext);
   }
 }
 
@@ -110,63 +165,135 @@ struct Origin {
   std::size_t candidate;
 };
 
-// Candidates below a limit from which to jump: the cheapest few, cheapest first, of equals the first.
+// The same with longer waits between holds and between skips, one candidate after the other.
+void Search::step_within_limits(const Front& before, Front& front, Ways& ways) const {
+  const auto one_more = [](std::uint8_t frames) {
+    return static_cast<std::uint8_t>(std::min(frames + 1, PathCosts::kNever - 1));
+  };
+  const auto cost_of = [&](std::size_t c) { return c == n_ ? kNever : before.cost[kMargin + c]; };
+  for (std::size_t c = 0; c < n_; ++c) {
+    const std::size_t last = before_[c], second = second_[c];
+    const bool may_skip = second != n_ && before.since_skip[second] >= costs_.skip_wait;
+    const bool may_hold = may_stay_[c] || before.since_hold[c] >= costs_.hold_wait;
+    const float next = cost_of(last), skip = may_skip ? cost_of(second) + costs_.tempo : kNever;
+    const float hold = may_hold ? cost_of(c) + costs_.tempo : kNever, moved = std::min(next, skip);
+    front.cost[kMargin + c] = std::min(moved, hold);
+    const std::uint8_t way = hold < moved ? kHold : (skip < next ? kSkip : kNext);
+    const std::size_t from = way == kHold ? c : (way == kSkip ? second : last);
+    ways.way[c] = way;
+    if (from == n_) continue;
+    front.since_hold[c] = way == kHold ? 0 : one_more(before.since_hold[from]);
+    front.since_skip[c] = way == kSkip ? 0 : one_more(before.since_skip[from]);
+  }
+}
+
+SKINFORGE_VECTOR_CLONES bool any_below(const float* costs, float limit) {
+  const auto below = Lanes::load(costs).v < limit;
+  int any = 0;
+  for (std::size_t k = 0; k < kBlock; ++k) any |= below[k];
+  return any != 0;
+}
+
+// Candidates below a limit from which to jump: the cheapest few, cheapest first, of equals the first. Whole
+// blocks.
 std::vector<Origin> cheapest(std::span<const float> costs, float limit) {
   std::vector<Origin> best;
-  for (std::size_t c = 0; c < costs.size(); ++c) {
-    if (!(costs[c] < limit)) continue;
+  const auto consider = [&](std::size_t c) {
+    if (!(costs[c] < limit)) return;
     if (best.size() == kJumpOrigins) best.pop_back();
     const auto place = std::upper_bound(best.begin(), best.end(), costs[c],
                                         [](float cost, const Origin& origin) { return cost < origin.cost; });
     best.insert(place, {costs[c], c});
     if (best.size() == kJumpOrigins) limit = best.back().cost;
+  };
+  for (std::size_t block = 0; block < costs.size(); block += kBlock) {
+    if (!any_below(costs.data() + block, limit)) continue;
+    for (std::size_t c = block; c < block + kBlock; ++c) consider(c);
   }
   return best;
 }
 
-// Whether a block of landings might be cheaper than what there is; most are not.
-bool may_gain(const float* to_beat, const float* landing, float base) {
-  using Half = Eigen::Map<const Eigen::Array4f>;
-  const Eigen::Array4f first = Half(to_beat) - Half(landing), second = Half(to_beat + 4) - Half(landing + 4);
-  return first.max(second).maxCoeff() > base;
+// What jumps to each candidate have to beat: its cost, or less than any cost where none may enter. Returns
+// the largest.
+SKINFORGE_VECTOR_CLONES float costs_to_beat(const float* cost, const float* ceiling, std::size_t count,
+                                            float* to_beat) {
+  Lanes most = Lanes::all(-kNever);
+  for (std::size_t c = 0; c < count; c += kBlock) {
+    const Lanes beat = min(Lanes::load(cost + c), Lanes::load(ceiling + c));
+    beat.store(to_beat + c);
+    most = max(most, beat);
+  }
+  float largest = -kNever;
+  for (std::size_t k = 0; k < kBlock; ++k) largest = std::max(largest, most.v[k]);
+  return largest;
+}
+
+// Blocks in which some landing is cheaper than what there is; most have none.
+SKINFORGE_VECTOR_CLONES std::size_t blocks_that_gain(const float* to_beat, const float* landing, float base,
+                                                     std::size_t count, std::uint32_t* found) {
+  std::size_t size = 0;
+  for (std::size_t c = 0; c < count; c += kBlock) {
+    const auto gains = (Lanes::load(landing + c) + base).v < Lanes::load(to_beat + c).v;
+    int any = 0;
+    for (std::size_t k = 0; k < kBlock; ++k) any |= gains[k];
+    found[size] = static_cast<std::uint32_t>(c);
+    size += any != 0;
+  }
+  return size;
 }
 
 // `to_beat`: the cost of each candidate that may be entered, below all costs for the others.
-void Search::land(std::size_t origin, float base, std::span<float> to_beat, Layer& layer) const {
+void Search::land(std::size_t origin, float base, std::span<float> to_beat, Front& front, Ways& ways) const {
   const auto landing = landing_(static_cast<std::int32_t>(origin));
-  for (std::size_t block = 0; block < n_; block += kBlock) {
-    const bool whole = block + kBlock <= n_;
-    if (whole && !may_gain(to_beat.data() + block, landing.data() + block, base)) continue;
-    for (std::size_t t = block; t < std::min(n_, block + kBlock); ++t) {
-      const float total = base + landing[t];
-      if (total >= to_beat[t]) continue;
-      to_beat[t] = layer.cost[t] = total;
-      layer.step[t] = PathStep::Jump;
-      layer.origin[t] = static_cast<std::int32_t>(origin);
-    }
+  const auto way = static_cast<std::uint8_t>(kJump + ways.origins.size());
+  ways.origins.push_back(static_cast<std::int32_t>(origin));
+  const auto land_on = [&](std::size_t t) {
+    const float total = base + landing[t];
+    if (total >= to_beat[t]) return;
+    to_beat[t] = front.cost[kMargin + t] = total;
+    ways.way[t] = way;
+    if (has_limits()) front.since_hold[t] = front.since_skip[t] = PathCosts::kNever - 1;
+  };
+  const std::size_t whole = n_ / kBlock * kBlock;
+  std::vector<std::uint32_t> blocks(whole / kBlock + 1);
+  blocks.resize(blocks_that_gain(to_beat.data(), landing.data(), base, whole, blocks.data()));
+  for (const std::uint32_t block : blocks)
+    for (std::size_t t = block; t < block + kBlock; ++t) land_on(t);
+  for (std::size_t t = whole; t < n_; ++t) land_on(t);
+}
+
+void Search::jump_on(const Front& before, Front& front, Ways& ways) const {
+  std::vector<float> to_beat(padded_);
+  const float dearest = costs_to_beat(front.cost.data() + kMargin, entry_.data(), padded_, to_beat.data());
+  const auto costs = std::span(before.cost).subspan(kMargin, padded_);
+  for (const Origin& origin : cheapest(costs, dearest - costs_.jump))
+    land(origin.candidate, origin.cost + costs_.jump, to_beat, front, ways);
+}
+
+SKINFORGE_VECTOR_CLONES void add_row(const float* row, float tempo, const std::uint8_t* way,
+                                     const std::uint8_t* may_stay, std::size_t count, float* cost,
+                                     float* hold_cost) {
+  for (std::size_t c = 0; c < count; ++c) {
+    cost[c] += row[c];
+    hold_cost[c] = way[c] == kHold && !may_stay[c] ? kNever : cost[c] + tempo;
   }
 }
 
-void Search::jump_on(const Layer& before, Layer& layer) const {
-  std::vector<float> to_beat(n_, -kNever);
-  for (std::size_t c = 0; c < n_; ++c)
-    if (may_enter_[c]) to_beat[c] = layer.cost[c];
-  const float dearest = *std::max_element(to_beat.begin(), to_beat.end());
-  for (const Origin& origin : cheapest(before.cost, dearest - costs_.jump))
-    land(origin.candidate, origin.cost + costs_.jump, to_beat, layer);
+void Search::pay(std::size_t frame, const Ways& ways, Front& front) const {
+  add_row(distances_.row(frame).data(), costs_.tempo, ways.way.data(), may_stay_.data(), n_,
+          front.cost.data() + kMargin, front.hold_cost.data() + kMargin);
 }
 
-Layer Search::next_layer(const Layer& before, std::size_t frame) const {
-  Layer layer(n_);
-  step_on(before, layer);
-  jump_on(before, layer);
-  const auto row = distances_.row(frame);
-  for (std::size_t c = 0; c < n_; ++c) layer.cost[c] += row[c];
-  return layer;
+Ways Search::go_on(const Front& before, std::size_t frame, Front& front) const {
+  Ways ways{std::vector<std::uint8_t>(padded_), {}};
+  step_on(before, front, ways);
+  jump_on(before, front, ways);
+  pay(frame, ways, front);
+  return ways;
 }
 
-std::size_t Search::before(std::size_t candidate, const Layer& layer) const {
-  switch (layer.step[candidate]) {
+std::size_t Search::before(std::size_t candidate, const Ways& ways) const {
+  switch (ways.step(candidate)) {
     case PathStep::Next:
       return before_[candidate];
     case PathStep::Skip:
@@ -174,23 +301,28 @@ std::size_t Search::before(std::size_t candidate, const Layer& layer) const {
     case PathStep::Hold:
       return candidate;
     case PathStep::Jump:
-      return static_cast<std::size_t>(layer.origin[candidate]);
+      return static_cast<std::size_t>(ways.origin(candidate));
   }
   return candidate;
 }
 
 KeyframePath Search::run(std::span<const std::size_t> frames, std::int32_t fixed) const {
-  std::vector<Layer> layers = {first_layer(frames.front(), fixed)};
-  for (std::size_t k = 1; k < frames.size(); ++k) layers.push_back(next_layer(layers.back(), frames[k]));
-  const std::vector<float>& last = layers.back().cost;
-  auto c = fixed >= 0 ? static_cast<std::size_t>(fixed)
-                      : static_cast<std::size_t>(std::min_element(last.begin(), last.end()) - last.begin());
-  SF_EXPECT(last[c] < kNever);
+  Front last = first_front(frames.front(), fixed), next = last;
+  std::vector<Ways> all = {Ways{std::vector<std::uint8_t>(padded_), {}}};
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    all.push_back(go_on(last, frames[k], next));
+    std::swap(last, next);
+  }
+  const auto costs = std::span(last.cost).subspan(kMargin, n_);
+  auto c = fixed >= 0
+               ? static_cast<std::size_t>(fixed)
+               : static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
+  SF_EXPECT(costs[c] < kNever);
   KeyframePath path;
   for (std::size_t k = frames.size(); k-- > 0;) {
     path.candidates.push_back(static_cast<std::int32_t>(c));
-    path.steps.push_back(layers[k].step[c]);
-    if (k > 0) c = before(c, layers[k]);
+    path.steps.push_back(all[k].step(c));
+    if (k > 0) c = before(c, all[k]);
   }
   std::reverse(path.candidates.begin(), path.candidates.end());
   std::reverse(path.steps.begin(), path.steps.end());

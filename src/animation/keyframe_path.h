@@ -23,22 +23,25 @@ struct KeyframePath {
   std::vector<PathStep> steps;  ///< how each was reached; the first one from the last in a loop, else Next
 };
 
-/// What moving along a path costs, in units of the keyframe distance.
+/// What moving along a path costs, in units of the keyframe distance, and how often the tempo may change.
 struct PathCosts {
+  static constexpr int kNever = 255;
+  int hold_wait = 1;     ///< frames between two holds at least; 1: down to half speed; kNever: no holds
+  int skip_wait = 0;     ///< frames between two skips at least; 0: up to double speed; kNever: no skips
   float tempo = 0.002F;  ///< a Hold or Skip; ours, see completion.md
   float jump = 0.8F;     ///< a Jump; ours, see completion.md
 };
 
-/// What landing on each keyframe costs a jump that leaves from `from`: 0 = nobody will notice. The span stays
-/// valid.
+/// What landing on each keyframe costs a jump that leaves from `from`: 0 = nobody will notice. The span is
+/// valid until the next call.
 using LandingCosts = std::function<std::span<const float>(std::int32_t from)>;
 
 /// The sequence of keyframes with the lowest sum of distances and step costs, by dynamic programming over
 /// (frame, keyframe). A clip that ends may be held on its last keyframe for as long as it likes, once a third
 /// of a second of it has been played (someone who lies down stays there), but not in a loop. `allowed`: per
 /// candidate; at least one. `is_loop`: frame 0 follows the last frame; the path is closed by two laps of free
-/// search, then one lap back to the keyframe found in the middle. Jumps leave only from the 24 cheapest
-/// keyframes of a frame. Cost: frames x candidates x 24 at worst.
+/// search, then one lap back to the keyframe found in the middle. Jumps leave only from the 12 cheapest
+/// keyframes of a frame. Cost: frames x candidates x 12 at worst; memory: a byte each.
 KeyframePath best_path(const DistanceTable& distances, const FrameSteps& steps,
                        const std::vector<bool>& allowed, const LandingCosts& landing, bool is_loop,
                        const PathCosts& costs = {});

@@ -11,8 +11,9 @@ namespace {
 constexpr double kTurningDot =
     1 - 1.25e-5;                     // cosine of half of 0.01 radians; ours: as much as a still clip may have
 constexpr float kLandingWeight = 2;  // ours: completion.md
-constexpr std::size_t kMostTurning = 16;  // ours: more joints dilute a jolt and cost time
-constexpr double kWandering = 0.01;       // ours: of the extent; less is a breathing joint, not a walk
+constexpr std::size_t kMostTurning = 16;         // ours: more joints dilute a jolt and cost time
+constexpr std::size_t kKeptNumbers = 8'000'000;  // ours: 32 MB of rows, and twice that of pose distances
+constexpr double kWandering = 0.01;              // ours: of the extent; less is a breathing joint, not a walk
 
 // The joints that turn farthest from the first frame, farthest first.
 std::vector<JointId> turning_joints(const MotionSet& set, std::span<const JointId> joints) {
@@ -101,10 +102,19 @@ const Eigen::ArrayXf& LandingTable::pose_distances(std::size_t frame) {
   return distances;
 }
 
+// Long sets would keep a square table otherwise.
+void LandingTable::make_room() {
+  if (++kept_ * frames_ <= kKeptNumbers) return;
+  kept_ = 1;
+  std::fill(rows_.begin(), rows_.end(), std::vector<float>());
+  std::fill(distances_.begin(), distances_.end(), Eigen::ArrayXf());
+}
+
 std::span<const float> LandingTable::row(std::int32_t from) {
   const auto s = static_cast<std::size_t>(from);
   std::vector<float>& row = rows_[s];
   if (!row.empty()) return row;
+  make_room();
   const Eigen::ArrayXf& arrival =
       pose_distances(steps_.next[s] < 0 ? s : static_cast<std::size_t>(steps_.next[s]));
   const Eigen::ArrayXf& departure = pose_distances(s);

@@ -18,11 +18,13 @@ class LandingTable {
   LandingTable(const MotionSet& set, const Skeleton& skeleton, std::span<const JointId> joints,
                const FrameSteps& steps);
 
-  /// From keyframe `from` to every keyframe. Rows are worked out when first asked for, and stay.
+  /// From keyframe `from` to every keyframe; valid until the next call. Rows are worked out when first asked
+  /// for, and stay as long as there is room.
   std::span<const float> row(std::int32_t from);
 
  private:
   const Eigen::ArrayXf& pose_distances(std::size_t frame);
+  void make_room();
 
   const FrameSteps& steps_;
   std::size_t frames_;
@@ -32,6 +34,7 @@ class LandingTable {
   std::vector<Eigen::ArrayX3f> shifts_;  // per wandering joint, #frames: place in shares of the extent
   std::vector<Eigen::ArrayXf> distances_;
   std::vector<std::vector<float>> rows_;
+  std::size_t kept_ = 0;  // rows
 };
 
 }  // namespace skinforge

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "animation/clearance.h"
 #include "animation/completion.h"
+#include "animation/feet.h"
 #include "animation/resampling.h"
 #include "animation/sampling.h"
 #include "animation/shift_scale.h"
@@ -13,6 +15,7 @@ namespace {
 
 constexpr double kLoopGap = 0.25;             // ours: of the clip's own range; completion.md
 constexpr double kActivityHalfWindow = 0.25;  // seconds; ours: about half a step of a walk
+constexpr double kHangingRadius = 0.05;       // ours: of the skeleton's diagonal; a tool in a hand
 constexpr double kStillAngle = 0.01;   // radians; ours: a joint that turns less does not count as moving
 constexpr double kStillShift = 0.002;  // ours: of the skeleton's extent
 
@@ -224,20 +227,40 @@ void relate_to_means(std::span<const double> shares, std::vector<std::vector<Qua
   }
 }
 
+std::vector<double> skin_radii(const Character& input) {
+  Eigen::AlignedBox3d box;
+  std::vector<Vec3> places;
+  for (const Joint& joint : input.skeleton.joints) {
+    places.push_back(joint.joint_from_model.inverse().translation());
+    box.extend(places.back());
+  }
+  std::vector<double> radii(places.size(), 0.0);
+  for (std::size_t v = 0; v < input.weights.vertex_count(); ++v)
+    for (const Influence& influence : input.weights.of(VertexId(v))) {
+      double& radius = radii[influence.joint.index()];
+      radius = std::max(radius, (input.mesh.positions[v] - places[influence.joint.index()]).norm());
+    }
+  const double hanging = kHangingRadius * (box.isEmpty() ? 0 : box.diagonal().norm());
+  for (double& radius : radii) radius = radius == 0 ? hanging : radius;
+  return radii;
+}
+
 }  // namespace
 
-MotionSet build_motion_set(const Character& input, const Graft& graft, SourceId source, const JointMap& map,
-                           const CompletionOptions& options) {
-  SF_EXPECT(map.size() == input.skeleton.size() && options.rate_hz > 0);
+MotionSet build_motion_set(const Character& input, const Graft& graft, SourceId source, const JointMap& map) {
+  SF_EXPECT(map.size() == input.skeleton.size());
   const GraftSource& placed = graft.sources[source.index()];
   const std::size_t result_size = graft.skeleton.size();
   MotionSet set;
-  resample_clips(input, options.rate_hz, kept_joints(placed), set);
+  resample_clips(input, kSearchRate, kept_joints(placed), set);
   set.confidence.assign(result_size, 0.0);
   for (const MappedJoint& m : map) set.confidence[m.image.index()] += m.confidence;
+  set.skin_radius = skin_radii(input);
   if (set.poses.empty()) return set;
 
-  measure_activity(options.rate_hz, set);
+  set.feet = find_feet(input, set);
+  set.balls = skin_balls(input, kept_joints(placed));
+  measure_activity(kSearchRate, set);
   const std::vector<Quat> bind = global_rotations(input.skeleton, bind_pose(input.skeleton));
   std::vector<std::vector<Quat>> rotations;
   for (const Pose& pose : set.poses)

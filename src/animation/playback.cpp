@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace skinforge {
 namespace {
 
-constexpr int kTempoPasses = 24;       // ours: (1 2 1) / 4 so often spreads a skip over +-3.5 frames
-constexpr int kLimitPasses = 400;      // ours: a chain of 100 keys settles within a few dozen
-constexpr double kShrink = 0.05;       // ours: any share ends the last resort
-constexpr double kBelowLimit = 0.999;  // ours: leaves room for rounding to float
+constexpr int kTempoPasses = 24;                // ours: (1 2 1) / 4 so often spreads a skip over +-3.5 frames
+constexpr int kLimitPasses = 400;               // ours: a chain of 100 keys settles within a few dozen
+constexpr double kFullTurn = std::numbers::pi;  // no two rotations are farther apart
+constexpr double kDotRounding = 1e-12;          // a few roundings of a unit quaternion
+constexpr double kShrink = 0.05;                // ours: any share ends the last resort
+constexpr double kBelowLimit = 0.999;           // ours: leaves room for rounding to float
 
 // A stretch without jumps: where in its clip each of its frames lies.
 struct Stretch {
@@ -100,14 +103,9 @@ void crossfade(const Stretch& before, const Stretch& after, std::size_t half_fad
   }
 }
 
-Transform blend(const Transform& a, const Transform& b, double share) {
-  if (share == 0) return a;
-  return {(1 - share) * a.translation + share * b.translation, a.rotation.slerp(share, b.rotation),
-          (1 - share) * a.scale + share * b.scale};
-}
-
 // Moves both rotations towards each other until they are `limit` apart; false when they already are.
-bool pull_together(Quat& a, Quat& b, double limit) {
+bool pull_together(Quat& a, Quat& b, double limit, double limit_dot) {
+  if (std::abs(a.dot(b)) > limit_dot) return false;  // most: no need for the angle
   const double angle = a.angularDistance(b);
   if (angle <= limit) return false;
   const double share = 0.5 * (1 - kBelowLimit * limit / angle);
@@ -118,6 +116,12 @@ bool pull_together(Quat& a, Quat& b, double limit) {
 }
 
 }  // namespace
+
+Transform blend(const Transform& a, const Transform& b, double share) {
+  if (share == 0) return a;
+  return {(1 - share) * a.translation + share * b.translation, a.rotation.slerp(share, b.rotation),
+          (1 - share) * a.scale + share * b.scale};
+}
 
 std::vector<PlaybackFrame> play(const KeyframePath& path, const MotionSet& set, bool is_loop,
                                 std::size_t half_fade) {
@@ -159,10 +163,12 @@ Transform joint_at(const MotionSet& set, const PlaybackFrame& frame, JointId joi
 void limit_turns(std::vector<Quat>& rotations, double limit, bool is_loop) {
   const std::size_t n = rotations.size();
   if (n < 2) return;
+  const double limit_dot = std::cos(std::min(limit, kFullTurn) / 2) + kDotRounding;
   const auto pull_all = [&] {
     bool moved = false;
-    for (std::size_t k = 0; k + 1 < n; ++k) moved |= pull_together(rotations[k], rotations[k + 1], limit);
-    if (is_loop) moved |= pull_together(rotations[n - 1], rotations[0], limit);
+    for (std::size_t k = 0; k + 1 < n; ++k)
+      moved |= pull_together(rotations[k], rotations[k + 1], limit, limit_dot);
+    if (is_loop) moved |= pull_together(rotations[n - 1], rotations[0], limit, limit_dot);
     return moved;
   };
   for (int pass = 0; pass < kLimitPasses; ++pass)

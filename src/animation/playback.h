@@ -28,6 +28,9 @@ struct PlaybackFrame {
 std::vector<PlaybackFrame> play(const KeyframePath& path, const MotionSet& set, bool is_loop,
                                 std::size_t half_fade);
 
+/// Between two transforms, 0 = a, 1 = b: translation and scale in a line, rotation by the shortest turn.
+Transform blend(const Transform& a, const Transform& b, double share);
+
 /// Local transform of input joint `joint`.
 Transform joint_at(const MotionSet& set, const ClipPosition& position, JointId joint);
 Transform joint_at(const MotionSet& set, const PlaybackFrame& frame, JointId joint);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "base/archive.h"
@@ -24,6 +25,10 @@ std::string write_obj(const Character& character);
 
 /// PNG of a raster (deterministic; alpha kept only when some pixel is not opaque).
 Bytes encode_png(const Raster& raster);
+
+/// APNG that plays for ever (PNG specification, third edition): viewers that know no animation show the first frame.
+/// Frames are opaque and of one size; at least one. Rounds to milliseconds a frame.
+Bytes encode_animated_png(std::span<const Raster> frames, double seconds_per_frame);
 
 /// Pixels of a PNG or JPEG. Throws Error (BadInput); refuses more than 268 million pixels before decoding.
 Raster decode_image(const Image& image);

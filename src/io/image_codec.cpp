@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/expect.h"
 #include "io/export.h"
+#include "io/png_chunks.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -60,22 +61,6 @@ ImageHeader checked(std::string mime, std::uint32_t width, std::uint32_t height)
   return {std::move(mime), static_cast<int>(width), static_cast<int>(height)};
 }
 
-/// CRC-32 as PNG uses it (PNG specification, annex D).
-std::uint32_t crc32(ByteSpan bytes) {
-  static const auto kTable = [] {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t n = 0; n < 256; ++n) {
-      std::uint32_t c = n;
-      for (int bit = 0; bit < 8; ++bit) c = (c & 1) != 0 ? 0xEDB88320u ^ (c >> 1) : c >> 1;
-      table[n] = c;
-    }
-    return table;
-  }();
-  std::uint32_t crc = 0xFFFFFFFFu;
-  for (const std::byte b : bytes) crc = kTable[(crc ^ std::to_integer<std::uint32_t>(b)) & 0xFF] ^ (crc >> 8);
-  return crc ^ 0xFFFFFFFFu;
-}
-
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1A\n";
 
 ImageHeader inspect_png(ByteSpan bytes) {
@@ -85,7 +70,7 @@ ImageHeader inspect_png(ByteSpan bytes) {
     const std::size_t length = big_endian(bytes, at, 4);
     if (length > bytes.size() - at - kFrame) break;
     const std::string_view type(reinterpret_cast<const char*>(bytes.data()) + at + 4, 4);
-    if (crc32(bytes.subspan(at + 4, length + 4)) != big_endian(bytes, at + 8 + length, 4))
+    if (png_checksum(bytes.subspan(at + 4, length + 4)) != big_endian(bytes, at + 8 + length, 4))
       bad("damaged PNG: a checksum is wrong");
     if (header.mime.empty()) {
       if (type != "IHDR" || length != 13) bad("damaged PNG: it does not start with its header");

@@ -357,32 +357,85 @@ class RecipeReader {
   }
 
   static AnimationOptions read_animation(const ValueReader& reader) {
-    const ObjectReader object = reader.object({"clips", "complete", "rate_hz"});
+    const ObjectReader object = reader.object(
+        {"clips", "complete", "method", "rate_hz", "tempo", "limb_phase", "key_tolerance", "per_clip"});
     AnimationOptions options;
-    if (const auto clips = object.find("clips")) read_clips(*clips, options);
+    if (const auto clips = object.find("clips")) options.all_clips = read_clips(*clips, options.clips);
     if (const auto complete = object.find("complete")) options.complete = complete->boolean();
-    if (const auto rate = object.find("rate_hz")) options.rate_hz = rate->number(1, 240);
+    if (const auto method = object.find("method")) options.method = read_method(*method);
+    if (const auto rate = find_set(object, "rate_hz")) options.rate_hz = rate->number(1, 240);
+    if (const auto tempo = object.find("tempo")) options.tempo = read_tempo(*tempo);
+    if (const auto phase = find_set(object, "limb_phase")) options.limb_phase = phase->number(0, 1);
+    if (const auto tolerance = object.find("key_tolerance"))
+      options.key_tolerance = tolerance->number(0, 0.1);
+    if (const auto clips = object.find("per_clip"))
+      for (const auto& [name, settings] : clips->members())
+        options.per_clip[name] = read_clip_settings(settings);
     return options;
   }
 
-  static void read_clips(const ValueReader& reader, AnimationOptions& options) {
-    if (reader.is_string() && reader.value().text == "all") return;
-    if (!reader.is_array()) reader.fail_expected("\"all\" or a list of clip names");
-    options.all_clips = false;
+  // null is as good as nothing.
+  static std::optional<ValueReader> find_set(const ObjectReader& object, std::string_view key) {
+    const auto found = object.find(key);
+    return found && found->value().kind == Value::Kind::Null ? std::nullopt : found;
+  }
+
+  static ClipSettings read_clip_settings(const ValueReader& reader) {
+    const ObjectReader object =
+        reader.object({"complete", "method", "rate_hz", "tempo", "limb_phase", "loop", "use", "with"});
+    ClipSettings settings;
+    if (const auto complete = find_set(object, "complete")) settings.complete = complete->boolean();
+    if (const auto method = object.find("method")) settings.method = read_method(*method);
+    if (const auto rate = find_set(object, "rate_hz")) settings.rate_hz = rate->number(1, 240);
+    if (const auto tempo = object.find("tempo")) settings.tempo = read_tempo(*tempo);
+    if (const auto phase = find_set(object, "limb_phase")) settings.limb_phase = phase->number(0, 1);
+    if (const auto loop = find_set(object, "loop")) settings.loop = loop->boolean();
+    if (const auto use = object.find("use")) settings.use = read_clip_names(*use);
+    if (const auto with = object.find("with")) settings.with = with->text();
+    if (!settings.use.empty() && !settings.with.empty())
+      object.at("use").fail("\"with\" already says which clip is played; leave one of the two out");
+    return settings;
+  }
+
+  static CompletionMethod read_method(const ValueReader& reader) {
+    return reader.choice<CompletionMethod>(
+        {{"sequence", CompletionMethod::Sequence}, {"paper", CompletionMethod::Paper}});
+  }
+
+  static std::array<double, 2> read_tempo(const ValueReader& reader) {
+    const auto items = reader.items();
+    if (items.size() != 2) reader.fail_expected("the slowest and the fastest tempo, as [0.8, 1.25]");
+    return {items[0].number(0.5, 1), items[1].number(1, 2)};
+  }
+
+  static std::vector<std::string> read_clip_names(const ValueReader& reader) {
+    if (!reader.is_array()) reader.fail_expected("a list of clip names");
+    std::vector<std::string> names;
     for (const ValueReader& item : reader.items()) {
       const std::string clip = item.text();
-      if (std::find(options.clips.begin(), options.clips.end(), clip) != options.clips.end())
+      if (std::find(names.begin(), names.end(), clip) != names.end())
         item.fail("clip \"" + printable(clip) + "\" is listed twice");
-      options.clips.push_back(clip);
+      names.push_back(clip);
     }
+    return names;
+  }
+
+  // True for "all"; otherwise fills in the names.
+  static bool read_clips(const ValueReader& reader, std::vector<std::string>& names) {
+    if (reader.is_string() && reader.value().text == "all") return true;
+    if (!reader.is_array()) reader.fail_expected("\"all\" or a list of clip names");
+    names = read_clip_names(reader);
+    return false;
   }
 
   void read_output(const ValueReader& reader) {
-    const ObjectReader object = reader.object({"glb", "obj", "vdb", "influences"});
+    const ObjectReader object = reader.object({"glb", "obj", "vdb", "animated", "influences"});
     OutputOptions& output = recipe_.output;
     if (const auto glb = object.find("glb")) output.glb = output_name(*glb, ".glb");
     if (const auto obj = object.find("obj")) output.obj = output_name(*obj, ".obj");
     if (const auto vdb = object.find("vdb")) output.vdb = output_name(*vdb, ".vdb");
+    if (const auto animated = object.find("animated"))
+      output.all_animated = read_clips(*animated, output.animated);
     if (const auto influences = object.find("influences")) {
       output.influences = influences->integer(4, 8);
       if (output.influences != 4 && output.influences != 8) influences->fail_expected("4 or 8");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -153,16 +154,50 @@ struct RecipeOperation {
   }
 };
 
+/// How the keyframes of completed parts are chosen (SkinMixer Sec. 8).
+enum class CompletionMethod : std::uint8_t {
+  Sequence,  ///< the best whole sequence
+  Paper,     ///< the best keyframe for each frame on its own, then light smoothing
+};
+
+/// How the clip of one name is completed; what is not set is as `AnimationOptions` says.
+struct ClipSettings {
+  std::optional<bool> complete;
+  std::optional<CompletionMethod> method;
+  std::optional<double> rate_hz;
+  std::optional<std::array<double, 2>> tempo;
+  std::optional<double> limb_phase;
+  std::optional<bool> loop;      ///< whether it is played in a loop; by default found from its poses
+  std::vector<std::string> use;  ///< clips of other inputs that poses may be taken from; empty: all
+  std::string with;              ///< clip of another input that is played as it is; empty: none
+
+  auto operator<=>(const ClipSettings&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, ClipSettings& c) {
+    a(c.complete, c.method, c.rate_hz, c.tempo, c.limb_phase, c.loop, c.use, c.with);
+  }
+};
+
 struct AnimationOptions {
   bool all_clips = true;
   std::vector<std::string> clips;  ///< names to keep, when not all
   bool complete = true;            ///< give the other parts motion in each clip (SkinMixer Sec. 8)
-  double rate_hz = 30;             ///< keys a second of completed tracks; [1, 240]
+  CompletionMethod method = CompletionMethod::Sequence;
+  std::optional<double> rate_hz;  ///< keys a second of completed tracks; [1, 240]; by default 30
+  std::array<double, 2> tempo = {0.5,
+                                 2};  ///< of completed parts over that of their own clips; [0.5, 1], [1, 2]
+  /// Share of a step by which limbs that the body has twice follow those it had before; [0, 1]; 0 moves both
+  /// alike. By default the limbs of one kind share the step evenly.
+  std::optional<double> limb_phase;
+  double key_tolerance =
+      1e-4;  ///< of the diagonal: what leaving out keys of completed tracks may move; [0, 0.1]
+  std::map<std::string, ClipSettings> per_clip;  ///< by the clip's name, in its input or in the result
 
   auto operator<=>(const AnimationOptions&) const = default;
   template <class Archive>
   friend void fields(Archive& a, AnimationOptions& o) {
-    a(o.all_clips, o.clips, o.complete, o.rate_hz);
+    a(o.all_clips, o.clips, o.complete, o.method, o.rate_hz, o.tempo, o.limb_phase, o.key_tolerance,
+      o.per_clip);
   }
 };
 
@@ -171,12 +206,14 @@ struct OutputOptions {
   std::string glb;  ///< default: the recipe's name + ".glb"
   std::string obj;
   std::string vdb;
-  int influences = 4;  ///< 4 or 8 a vertex
+  bool all_animated = false;          ///< draw every clip as an animated picture
+  std::vector<std::string> animated;  ///< names of clips to draw so, when not all
+  int influences = 4;                 ///< 4 or 8 a vertex
 
   auto operator<=>(const OutputOptions&) const = default;
   template <class Archive>
   friend void fields(Archive& a, OutputOptions& o) {
-    a(o.glb, o.obj, o.vdb, o.influences);
+    a(o.glb, o.obj, o.vdb, o.all_animated, o.animated, o.influences);
   }
 };
 

@@ -99,8 +99,8 @@ Raster weights_picture(const Subject& subject, const SkinWeights& weights, std::
   return tile(views);
 }
 
-Raster clip_picture(const Subject& subject, std::span<const ClipFrame> frames, const std::string& title,
-                    const StripOptions& options) {
+std::vector<Raster> clip_frames(const Subject& subject, std::span<const ClipFrame> frames,
+                                const std::string& title, const StripOptions& options) {
   std::vector<Vec3> all;
   for (const ClipFrame& frame : frames) all.insert(all.end(), frame.positions.begin(), frame.positions.end());
   const View view = fit_view(all, options.angles, static_cast<double>(options.width) / options.height, 0.09);
@@ -109,14 +109,20 @@ Raster clip_picture(const Subject& subject, std::span<const ClipFrame> frames, c
   constexpr int kScale = 1, kMargin = 6;
   std::vector<Raster> pictures;
   for (const ClipFrame& frame : frames) {
+    drawing.highlight = frame.marked;
     Raster picture = draw(subject, {.positions = frame.positions}, view, drawing);
-    const std::string time = seconds_text(frame.time);
+    const std::string time = (frame.marked.empty() ? "" : "worst ") + seconds_text(frame.time);
     label(picture, options.width - kMargin - label_width(time, kScale),
           options.height - kMargin - kLetterHeight, time, {.scale = kScale});
     if (pictures.empty()) label(picture, kMargin, kMargin, title, {.scale = kScale});
     pictures.push_back(std::move(picture));
   }
-  return tile(pictures, {.gap = 2});
+  return pictures;
+}
+
+Raster clip_picture(const Subject& subject, std::span<const ClipFrame> frames, const std::string& title,
+                    const StripOptions& options) {
+  return tile(clip_frames(subject, frames, title, options), {.gap = 2});
 }
 
 }  // namespace skinforge

@@ -35,6 +35,7 @@ Raster weights_picture(const Subject& subject, const SkinWeights& weights, std::
 struct ClipFrame {
   double time = 0;              ///< seconds, written below the frame
   std::vector<Vec3> positions;  ///< #V, metres, model space
+  std::vector<FaceId> marked;   ///< faces to tint, because something is wrong there; says "worst" below
 };
 
 struct StripOptions {
@@ -43,7 +44,12 @@ struct StripOptions {
   ViewAngles angles{radians(40), radians(10)};
 };
 
-/// The frames in one row, all through one camera that holds every frame; normals follow the positions.
+/// The frames of a clip, one picture each, all through one camera that holds every frame; the time below
+/// each, `title` (the clip's name) in the first.
+std::vector<Raster> clip_frames(const Subject& subject, std::span<const ClipFrame> frames,
+                                const std::string& title, const StripOptions& options = {});
+
+/// The same in one row, all through one camera that holds every frame; normals follow the positions.
 /// `title` (the clip's name) stands in the first frame's corner. No frames: one pixel.
 Raster clip_picture(const Subject& subject, std::span<const ClipFrame> frames, const std::string& title,
                     const StripOptions& options = {});

@@ -163,6 +163,17 @@ struct FrameRun {
   std::int64_t frames = 0;
 };
 
+/// What goes wrong when a clip moves the body, beyond what is wrong at rest and in the inputs.
+struct PosedReport {
+  std::int64_t frames = 0;
+  double worst_time = 0;
+  std::int64_t intersections = 0;
+  std::int64_t folds = 0;
+  double stretch = 0;
+  double foot_sink = 0;
+  double foot_slide = 0;
+};
+
 struct ClipReport {
   std::string name;
   std::string input;
@@ -172,6 +183,9 @@ struct ClipReport {
   std::int64_t driven_joints = 0;
   std::vector<FrameRun> completed_from;
   std::optional<double> mean_distance;
+  std::int64_t jumps = 0;
+  std::string playback;
+  PosedReport posed;
   double fastest_turn = 0;
   std::string fastest_joint;
   double fastest_source_turn = 0;

@@ -226,6 +226,20 @@ void describe(const FrameRun& r, F& f) {
 }
 
 template <class F>
+void describe(const PosedReport& p, F& f) {
+  f("frames", p.frames, "count", "Frames looked at, evenly spread over the clip");
+  f("worst_time", p.worst_time, "s", "The worst of them: most intersections, then folds, then stretch");
+  f("intersections", p.intersections, "count",
+    "Pairs of triangles there that cut each other and do not at rest: of different sources, or of a "
+    "junction");
+  f("folds", p.folds, "count", "Edges of junctions there across which the surface folds back on itself");
+  f("stretch", p.stretch, "ratio", "Longest edge of junctions there over its length at rest; 0: no junction");
+  f("foot_sink", p.foot_sink, "m", "How much farther down a foot goes than in any clip of its input");
+  f("foot_slide", p.foot_slide, "m/s",
+    "How much faster a foot that stands slides than in any clip of its input");
+}
+
+template <class F>
 void describe(const ClipReport& c, F& f) {
   f("name", c.name, "text", "Name in the result");
   f("input", c.input, "text", "Input that drives it");
@@ -237,6 +251,10 @@ void describe(const ClipReport& c, F& f) {
     "Frames chosen for the other sources (SkinMixer Sec. 8), as runs");
   f("mean_distance", c.mean_distance, "ratio",
     "Mean keyframe distance of the chosen frames, 0 = alike; null: none chosen");
+  f("jumps", c.jumps, "count", "Steps between the chosen frames that no clip makes");
+  f("playback", c.playback, "text",
+    "loop: completed so that the last frame meets the first; once: it need not");
+  f("posed", c.posed, "object", "What goes wrong when it moves");
   f("fastest_turn", c.fastest_turn, "rad/s", "Fastest turn of any joint");
   f("fastest_joint", c.fastest_joint, "text", "The joint that turns so fast");
   f("fastest_source_turn", c.fastest_source_turn, "rad/s",

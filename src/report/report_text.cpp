@@ -145,6 +145,12 @@ std::string completed_text(const ClipReport& c) {
   return clips.empty() ? "" : "with " + joined(clips);
 }
 
+std::string posed_text(const PosedReport& p) {
+  if (p.intersections == 0 && p.folds == 0) return "";
+  return fmt::format("at {:.2f} s {} and {} more than at rest", p.worst_time,
+                     counted(p.intersections, "intersection"), counted(p.folds, "fold"));
+}
+
 std::string clip_lines(const Report& report) {
   TextTable table;
   for (const ClipReport& c : report.clips) {
@@ -153,7 +159,7 @@ std::string clip_lines(const Report& report) {
                counted(c.driven_joints, "joint"), completed_text(c),
                is_fast ? fmt::format("{} turns {:.2f} times as fast as in any source", c.fastest_joint,
                                      *c.turn_ratio)
-                       : ""});
+                       : posed_text(c.posed)});
   }
   return table.str(1);
 }

@@ -38,6 +38,8 @@ struct ArtifactNames {
   std::string shares() const { return prefix + "shares"; }
   std::string motion(std::size_t source) const { return prefix + "motion:" + std::to_string(source); }
   std::string clip(const std::string& name) const { return prefix + "clip:" + name; }
+  std::string quality(const std::string& name) const { return prefix + "quality:" + name; }
+  std::string animated(const std::string& name) const { return prefix + "animated:" + name; }
   std::string textured() const { return prefix + "textured"; }
   std::string color_steps() const { return prefix + "color_steps"; }
   std::string result() const { return prefix + "result"; }
@@ -107,6 +109,22 @@ struct PlacedOperations {
   template <class Archive>
   friend void fields(Archive& a, PlacedOperations& p) {
     a(p.operations, p.joint_shifts);
+  }
+};
+
+/// What goes wrong when a clip moves the finished body, at sampled frames.
+struct ClipQuality {
+  std::vector<double> times;                   ///< looked at, seconds
+  std::uint64_t folds = 0, intersections = 0;  ///< at the worst of them
+  double stretch = 0;                          ///< at the worst of them
+  double worst_time = 0;                       ///< of the worst frame, seconds
+  std::vector<FaceId> worst_faces;             ///< that fold or cut there, rising
+  double foot_sink = 0, foot_slide = 0;        ///< metres, m/s
+
+  bool is_faulty() const { return folds > 0 || intersections > 0; }
+  template <class Archive>
+  friend void fields(Archive& a, ClipQuality& q) {
+    a(q.times, q.folds, q.intersections, q.stretch, q.worst_time, q.worst_faces, q.foot_sink, q.foot_slide);
   }
 };
 

@@ -54,41 +54,122 @@ bool add_recipe_import(const RecipeInput& input, Engine& engine, const Settle& s
   return true;
 }
 
-bool is_wanted(const AnimationOptions& options, const std::string& clip) {
-  return options.all_clips ||
-         std::find(options.clips.begin(), options.clips.end(), clip) != options.clips.end();
+// All clips that the inputs bring.
+class ClipCatalog {
+ public:
+  ClipCatalog(const Recipe& recipe, Engine& engine, const ArtifactNames& names) : recipe_(recipe) {
+    for (const RecipeInput& input : recipe.inputs)
+      clips_.push_back(engine.get<InputContents>(names.contents(input.name)).clips);
+    add_requests();
+  }
+
+  // Every clip, the base's first. A clip keeps its name; where two inputs bring the same, the later one
+  // becomes <input>_<name>.
+  const std::vector<ClipRequest>& all() const { return all_; }
+  bool is_called(const ClipRequest& request, const std::string& name) const {
+    return request.name == name || clips_[request.input][request.clip] == name;
+  }
+  // Throws when no clip has this name; `inputs_but`: a clip of this input does not count.
+  void require(const std::string& name, const std::string& pointer, std::size_t inputs_but) const {
+    std::vector<std::string> known;
+    for (const ClipRequest& request : all_) {
+      if (request.input == inputs_but) continue;
+      if (is_called(request, name)) return;
+      known.push_back(request.name);
+    }
+    throw Error(ExitCode::Usage,
+                fmt::format("{}: no clip \"{}\" in any {}input{}", recipe_.place(pointer), printable(name),
+                            inputs_but < clips_.size() ? "other " : "", nearest_hint(name, known)));
+  }
+
+ private:
+  void add_requests() {
+    std::vector<std::size_t> order{recipe_.input_index(recipe_.base)};
+    for (std::size_t i = 0; i < clips_.size(); ++i)
+      if (i != order.front()) order.push_back(i);
+    std::set<std::string> taken;
+    for (const std::size_t i : order)
+      for (std::size_t c = 0; c < clips_[i].size(); ++c) {
+        std::string name = clips_[i][c];
+        if (taken.contains(name)) name = fmt::format("{}_{}", recipe_.inputs[i].name, clips_[i][c]);
+        for (int n = 2; !taken.insert(name).second; ++n)
+          name = fmt::format("{}_{}_{}", recipe_.inputs[i].name, clips_[i][c], n);
+        all_.push_back({i, c, name});
+      }
+  }
+
+  const Recipe& recipe_;
+  std::vector<std::vector<std::string>> clips_;  // names, per input
+  std::vector<ClipRequest> all_;
+};
+
+constexpr std::size_t kNoInput = static_cast<std::size_t>(-1);
+
+std::string pointer_to_setting(const std::string& clip, const char* key) {
+  return "/animation/per_clip/" + clip + "/" + key;
 }
 
-// A clip keeps its name; where two inputs bring the same, the later one becomes <input>_<name>. The base
-// comes first.
-std::vector<ClipRequest> clip_requests(const Recipe& recipe, Engine& engine, const ArtifactNames& names) {
-  std::vector<std::size_t> order{recipe.input_index(recipe.base)};
-  for (std::size_t i = 0; i < recipe.inputs.size(); ++i)
-    if (i != order.front()) order.push_back(i);
-  std::vector<ClipRequest> requests;
-  std::vector<std::string> all;
-  std::set<std::string> taken;
-  for (const std::size_t i : order) {
-    const std::string& input = recipe.inputs[i].name;
-    const std::vector<std::string>& clips = engine.get<InputContents>(names.contents(input)).clips;
-    for (std::size_t c = 0; c < clips.size(); ++c) {
-      std::string name = clips[c];
-      if (taken.contains(name)) name = fmt::format("{}_{}", input, clips[c]);
-      for (int n = 2; !taken.insert(name).second; ++n) name = fmt::format("{}_{}_{}", input, clips[c], n);
-      all.push_back(name);
-      if (is_wanted(recipe.animation, clips[c]) || is_wanted(recipe.animation, name))
-        requests.push_back({i, c, name});
-    }
+// Per input, the clips that one clip may be completed with.
+std::vector<ClipChoice> clip_choices(const ClipCatalog& catalog, const ClipRequest& request,
+                                     const std::string& name, const ClipSettings& settings,
+                                     std::size_t inputs) {
+  std::vector<ClipChoice> choices(inputs);
+  for (const std::string& use : settings.use)
+    catalog.require(use, pointer_to_setting(name, "use"), request.input);
+  if (!settings.with.empty()) catalog.require(settings.with, pointer_to_setting(name, "with"), request.input);
+  for (const ClipRequest& other : catalog.all()) {
+    if (other.input == request.input) continue;
+    ClipChoice& choice = choices[other.input];
+    for (const std::string& use : settings.use)
+      if (catalog.is_called(other, use)) choice.use.push_back(other.clip);
+    if (!settings.with.empty() && !choice.with && catalog.is_called(other, settings.with))
+      choice.with = other.clip;
   }
-  for (const std::string& wanted : recipe.animation.clips) {
-    const bool is_known = std::any_of(requests.begin(), requests.end(), [&](const ClipRequest& r) {
-      return r.name == wanted ||
-             engine.get<InputContents>(names.contents(recipe.inputs[r.input].name)).clips[r.clip] == wanted;
-    });
-    if (!is_known)
-      throw Error(ExitCode::Usage,
-                  fmt::format("{}: no clip \"{}\" in any input{}", recipe.place("/animation/clips"),
-                              printable(wanted), nearest_hint(wanted, all)));
+  return choices;
+}
+
+CompletionOptions completion_options(const AnimationOptions& animation, const ClipSettings& settings) {
+  CompletionOptions options;
+  const bool is_paper = settings.method.value_or(animation.method) == CompletionMethod::Paper;
+  options.complete = settings.complete.value_or(animation.complete);
+  options.choice = is_paper ? KeyframeChoice::Frame : KeyframeChoice::Sequence;
+  options.key_rate_hz = settings.rate_hz ? settings.rate_hz : animation.rate_hz;
+  options.tempo = settings.tempo.value_or(animation.tempo);
+  options.loop = settings.loop;
+  options.limb_phase = settings.limb_phase ? settings.limb_phase : animation.limb_phase;
+  options.key_tolerance = animation.key_tolerance;
+  return options;
+}
+
+// The name in the result counts before that in the input.
+std::string name_in_settings(const ClipCatalog& catalog, const AnimationOptions& animation,
+                             const ClipRequest& request) {
+  if (animation.per_clip.contains(request.name)) return request.name;
+  for (const auto& [name, settings] : animation.per_clip)
+    if (catalog.is_called(request, name)) return name;
+  return "";
+}
+
+// The clips that the recipe wants, with their settings.
+std::vector<ClipRequest> clip_requests(const Recipe& recipe, Engine& engine, const ArtifactNames& names) {
+  const ClipCatalog catalog(recipe, engine, names);
+  const AnimationOptions& animation = recipe.animation;
+  for (const std::string& wanted : animation.clips) catalog.require(wanted, "/animation/clips", kNoInput);
+  for (const auto& [name, settings] : animation.per_clip)
+    catalog.require(name, "/animation/per_clip/" + name, kNoInput);
+  for (const std::string& name : recipe.output.animated) catalog.require(name, "/output/animated", kNoInput);
+  std::vector<ClipRequest> requests;
+  for (ClipRequest request : catalog.all()) {
+    const auto is_it = [&](const std::string& wanted) { return catalog.is_called(request, wanted); };
+    if (!animation.all_clips && std::none_of(animation.clips.begin(), animation.clips.end(), is_it)) continue;
+    const std::string name = name_in_settings(catalog, animation, request);
+    const ClipSettings settings = name.empty() ? ClipSettings() : animation.per_clip.at(name);
+    request.options = completion_options(animation, settings);
+    if (!settings.use.empty() || !settings.with.empty())
+      request.options.clips = clip_choices(catalog, request, name, settings, recipe.inputs.size());
+    const auto& animated = recipe.output.animated;
+    request.is_animated = recipe.output.all_animated || std::any_of(animated.begin(), animated.end(), is_it);
+    requests.push_back(std::move(request));
   }
   return requests;
 }
@@ -156,13 +237,16 @@ void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const A
   engine.add(make_junction_stage(names, recipe));
   engine.add(make_bind_stage(names, recipe));
   engine.add(make_texture_stage(names, recipe));
-  for (std::size_t s = 0; s < sources.size(); ++s)
-    engine.add(make_motion_stage(names, recipe, s, sources[s]));
+  for (std::size_t s = 0; s < sources.size(); ++s) engine.add(make_motion_stage(names, s, sources[s]));
   for (const ClipRequest& clip : clips)
     engine.add(make_complete_clip_stage(names, recipe, sources.size(), clip));
   engine.add(make_export_stage(names, recipe, clips));
   engine.add(make_validate_stage(names));
   if (level == ReportLevel::None) return;
+  for (const ClipRequest& clip : clips) {
+    engine.add(make_quality_stage(names, sources.size(), clip));
+    if (clip.is_animated) engine.add(make_animated_stage(names, clip));
+  }
   engine.add(make_report_stage(names, recipe, clips, issue_artifacts(recipe, engine, names)));
   if (level == ReportLevel::Full) engine.add(make_pictures_stage(names, recipe, clips));
 }
@@ -196,8 +280,13 @@ std::vector<OutputFile> outputs(const Recipe& recipe, Engine& engine, ReportLeve
   }
   if (level == ReportLevel::None) return files;
   files.push_back({"report.json", names.report()});
+  const std::vector<ClipRequest> clips = clip_requests(recipe, engine, names);
+  const std::vector<std::string> strips = clip_picture_names(clips);
+  for (std::size_t c = 0; c < clips.size(); ++c)
+    if (clips[c].is_animated)
+      files.push_back({"pictures/" + strips[c] + ".apng", names.animated(clips[c].name)});
   if (level == ReportLevel::Full)
-    for (const std::string& picture : picture_names(recipe, clip_requests(recipe, engine, names)))
+    for (const std::string& picture : picture_names(recipe, clips))
       files.push_back({file_name_of_picture(picture), names.picture(picture)});
   return files;
 }

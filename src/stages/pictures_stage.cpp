@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <set>
 
-#include "animation/sampling.h"
 #include "base/safe_name.h"
 #include "render/pictures.h"
-#include "skeleton/pose.h"
-#include "skinning/linear_blend.h"
+#include "stages/clip_frames.h"
 #include "stages/decoded_images.h"
 #include "stages/pictures.h"
 #include "stages/site_solids.h"
@@ -22,14 +20,13 @@ std::string junction_name(std::size_t site) {
   return fmt::format("junction{}", site + 1);
 }
 
-std::vector<ClipFrame> frames_of(const Character& character, const Clip& clip) {
-  std::vector<ClipFrame> frames;
-  for (int i = 0; i < kFramesOfStrip; ++i) {
-    const double time = clip.duration * i / (kFramesOfStrip - 1);
-    const Pose pose = sample(character.skeleton, clip, time);
-    frames.push_back({time, linear_blend(character.mesh.positions, character.weights,
-                                         skinning_palette(character.skeleton, pose))});
-  }
+// Frames of a strip, and at its end the worst that was found, if anything is wrong there.
+std::vector<ClipFrame> frames_of(const Character& character, const Clip& clip, const ClipQuality& quality) {
+  std::vector<double> times;
+  for (int i = 0; i < kFramesOfStrip; ++i) times.push_back(clip.duration * i / (kFramesOfStrip - 1));
+  if (quality.is_faulty()) times.push_back(quality.worst_time);
+  std::vector<ClipFrame> frames = frames_at(character, clip, times);
+  if (quality.is_faulty()) frames.back().marked = quality.worst_faces;
   return frames;
 }
 
@@ -76,8 +73,9 @@ class Pictures final : public Stage {
 
   StageInfo info() const override {
     StageInfo info{.name = "pictures",
-                   .version = 2,
+                   .version = 3,
                    .reads = {names_.result(), names_.surface(), names_.graft(), names_.groups()}};
+    for (const ClipRequest& clip : clips_) info.reads.push_back(names_.quality(clip.name));
     for (const std::string& name : all_) info.writes.push_back(names_.picture(name));
     return info;
   }
@@ -101,7 +99,10 @@ class Pictures final : public Stage {
       }
     const std::vector<std::string> strips = clip_picture_names(clips_);
     for (std::size_t c = 0; c < clips_.size(); ++c)
-      put(strips[c], clip_picture(subject, frames_of(character, character.clips[c]), clips_[c].name));
+      put(strips[c], clip_picture(subject,
+                                  frames_of(character, character.clips[c],
+                                            in.get<ClipQuality>(names_.quality(clips_[c].name))),
+                                  clips_[c].name));
   }
 
  private:

@@ -36,7 +36,19 @@ std::string file_format(const std::string& file) {
   return dot == std::string::npos ? "" : file.substr(dot + 1);
 }
 
-ClipReport report_clip(const CompletedClip& completed, const std::string& input) {
+PosedReport report_posed(const ClipQuality& quality) {
+  PosedReport r;
+  r.frames = wide(quality.times.size());
+  r.worst_time = quality.worst_time;
+  r.intersections = static_cast<std::int64_t>(quality.intersections);
+  r.folds = static_cast<std::int64_t>(quality.folds);
+  r.stretch = quality.stretch;
+  r.foot_sink = quality.foot_sink;
+  r.foot_slide = quality.foot_slide;
+  return r;
+}
+
+ClipReport report_clip(const CompletedClip& completed, const ClipQuality& quality, const std::string& input) {
   const CompletionRecord& record = completed.record;
   ClipReport r;
   r.name = record.clip;
@@ -50,6 +62,9 @@ ClipReport report_clip(const CompletedClip& completed, const std::string& input)
     frames.push_back({c.source.value, c.time, c.clip, c.clip_time});
   r.completed_from = frame_runs(frames);
   if (!frames.empty()) r.mean_distance = record.mean_distance;
+  r.jumps = record.jumps;
+  r.playback = record.is_loop ? "loop" : "once";
+  r.posed = report_posed(quality);
   r.fastest_turn = record.fastest_turn;
   r.fastest_joint = record.fastest_joint;
   r.fastest_source_turn = record.fastest_source_turn;
@@ -84,7 +99,10 @@ class MakeReport final : public Stage {
                                     names_.glb(), names_.obj(), names_.validation()}),
                    .writes = {names_.report()}};
     for (std::size_t k = 0; k < site_count_; ++k) info.reads.push_back(names_.field(k));
-    for (const ClipRequest& clip : clips_) info.reads.push_back(names_.clip(clip.name));
+    for (const ClipRequest& clip : clips_) {
+      info.reads.push_back(names_.clip(clip.name));
+      info.reads.push_back(names_.quality(clip.name));
+    }
     for (const auto& of_input : issues_.of_input) info.reads = joined(std::move(info.reads), of_input);
     info.reads = joined(std::move(info.reads), issues_.of_build);
     return info;
@@ -113,7 +131,9 @@ class MakeReport final : public Stage {
     add_mesh(surface, result, influences_, report);
     set_steps(in.get<WeightRecord>(names_.weight_record()), report.weights);
     for (const ClipRequest& clip : clips_)
-      report.clips.push_back(report_clip(in.get<CompletedClip>(names_.clip(clip.name)), inputs_[clip.input]));
+      report.clips.push_back(report_clip(in.get<CompletedClip>(names_.clip(clip.name)),
+                                         in.get<ClipQuality>(names_.quality(clip.name)),
+                                         inputs_[clip.input]));
     std::vector<LedgerInput> ledger_inputs;
     for (std::size_t i = 0; i < inputs_.size(); ++i) ledger_inputs.push_back({inputs_[i], characters[i]});
     report.ledger = build_ledger(ledger_inputs, result,

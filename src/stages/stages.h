@@ -59,17 +59,25 @@ StagePointer make_junction_stage(const ArtifactNames& names, const Recipe& recip
 StagePointer make_bind_stage(const ArtifactNames& names, const Recipe& recipe);
 
 /// character:<input>, graft, joint_maps -> motion:<source> (Sec. 8.1).
-StagePointer make_motion_stage(const ArtifactNames& names, const Recipe& recipe, std::size_t source,
-                               const std::string& input);
+StagePointer make_motion_stage(const ArtifactNames& names, std::size_t source, const std::string& input);
 
 /// character:*, graft, motion:* -> clip:<name> (Sec. 8).
 struct ClipRequest {
   std::size_t input = 0;
   std::size_t clip = 0;  ///< index in that input
   std::string name;      ///< in the result
+  CompletionOptions options = {};
+  bool is_animated = false;  ///< draw it as an animated picture
 };
 StagePointer make_complete_clip_stage(const ArtifactNames& names, const Recipe& recipe,
                                       std::size_t source_count, const ClipRequest& request);
+
+/// bound, surface, graft, motion:*, clip:<name> -> quality:<name>: what goes wrong when it moves.
+StagePointer make_quality_stage(const ArtifactNames& names, std::size_t source_count,
+                                const ClipRequest& request);
+
+/// result -> animated:<name>: the clip as an animated picture.
+StagePointer make_animated_stage(const ArtifactNames& names, const ClipRequest& request);
 
 /// bound, surface, placed, shares, character:* -> textured, color_steps (Sec. 7.2 and beyond).
 StagePointer make_texture_stage(const ArtifactNames& names, const Recipe& recipe);
@@ -81,7 +89,7 @@ StagePointer make_export_stage(const ArtifactNames& names, const Recipe& recipe,
 /// glb, result -> validation: the file read back and compared.
 StagePointer make_validate_stage(const ArtifactNames& names);
 
-/// result, surface -> picture:*.
+/// result, surface, quality:* -> picture:*.
 StagePointer make_pictures_stage(const ArtifactNames& names, const Recipe& recipe,
                                  std::span<const ClipRequest> clips);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "animation/resampling.h"
 #include "animation/sampling.h"
 #include "characters.h"
@@ -230,6 +232,83 @@ TEST(CompleteClip, StillClipsAreNotChosen) {
   calm.clips = {still};  // the driving clip does not move at all
   const Mixture m({calm, part}, kReplace);
   for (const auto& choice : m.complete(0, 0).record.choices) EXPECT_NE(choice.clip, "Still");
+}
+
+std::set<std::string> clips_of(const CompletedClip& done) {
+  std::set<std::string> names;
+  for (const auto& choice : done.record.choices) names.insert(choice.clip);
+  return names;
+}
+
+// What the recipe may ask for one clip: clips to choose from, one clip to play, no loop.
+TEST(CompleteClip, ChoosesAsAsked) {
+  CompletionOptions use, with, once;
+  use.clips = {{}, {{1, 2}, {}}};
+  with.clips = {{}, {{}, 2}};
+  once.loop = false;
+  EXPECT_FALSE(clips_of(Mixture({host(), donor()}, kReplace, use).complete(0, 0)).contains("Run"));
+  const CompletedClip played = Mixture({host(), donor()}, kReplace, with).complete(0, 0);
+  EXPECT_EQ(clips_of(played), std::set<std::string>{"Hit"});
+  for (std::size_t f = 1; f < 20; ++f)
+    EXPECT_NEAR(played.record.choices[f].clip_time - played.record.choices[f - 1].clip_time, 1 / 30.0, 1e-9);
+  EXPECT_TRUE(Mixture({host(), donor()}, kReplace).complete(0, 0).record.is_loop);
+  EXPECT_FALSE(Mixture({host(), donor()}, kReplace, once).complete(0, 0).record.is_loop);
+}
+
+// A loop played in a loop goes round a whole number of times where its tempo allows: the walk of 1 s with the
+// run of 0.7 s at 0.7 of its tempo. Any start is good that is nearest to the walk.
+TEST(CompleteClip, PlaysALoopAWholeNumberOfTimes) {
+  CompletionOptions options;
+  options.clips = {{}, {{}, 0}};
+  const CompletedClip done = Mixture({host(), donor()}, kReplace, options).complete(0, 0);
+  EXPECT_EQ(done.record.jumps, 0);
+  std::set<double> times;
+  for (const auto& choice : done.record.choices) times.insert(choice.clip_time);
+  EXPECT_EQ(times.size(), 21U);  // all frames of 0.7 s
+}
+
+// Law: in a loop the velocity of a completed joint changes no more across the end than it does inside the
+// clip.
+TEST(CompleteClip, LoopsCloseInVelocity) {
+  const Mixture m({host(), donor()}, kReplace);
+  for (const auto& [input, c] : {std::pair<std::size_t, std::size_t>{0, 0}, {1, 0}, {1, 1}}) {
+    const Clip clip = m.complete(input, c).clip;
+    for (const JointTracks& tracks : clip.joints) {
+      if (m.graft.sources[m.graft.origins[tracks.joint.index()].source.index()].input == input) continue;
+      const auto& values = tracks.rotation.values;
+      const std::size_t n = values.size();
+      if (n < 4) continue;
+      const auto change_at = [&](std::size_t k) {  // of the velocity, at key k; the last key is the first
+        const Quat in = values[(k + n - 2) % (n - 1)].conjugate() * values[k];
+        return in.angularDistance(values[k].conjugate() * values[k + 1]);
+      };
+      double largest = 0;
+      for (std::size_t k = 1; k + 1 < n; ++k) largest = std::max(largest, change_at(k));
+      EXPECT_LE(change_at(0), 1.02 * largest + 1e-9);
+    }
+  }
+}
+
+// The paper's choice is nearer to the driving clip frame by frame, at the price of jumps.
+TEST(CompleteClip, ThePapersChoiceJumps) {
+  CompletionOptions paper;
+  paper.choice = KeyframeChoice::Frame;
+  const CompletedClip frames = Mixture({host(), donor()}, kReplace, paper).complete(0, 1),
+                      sequence = Mixture({host(), donor()}, kReplace).complete(0, 1);
+  EXPECT_GT(frames.record.jumps, 5 * sequence.record.jumps);
+  EXPECT_LE(frames.record.mean_distance, sequence.record.mean_distance + 1e-6);
+}
+
+TEST(CompleteClip, HasKeysAtTheRateAsked) {
+  CompletionOptions options;
+  options.key_tolerance = 0;
+  options.key_rate_hz = 24;
+  const Mixture m({host(), donor()}, kReplace, options);
+  const Clip clip = m.complete(0, 0).clip;
+  for (const JointTracks& tracks : clip.joints)
+    if (m.graft.origins[tracks.joint.index()].source == SourceId(1) && tracks.rotation.times.size() > 1) {
+      EXPECT_EQ(tracks.rotation.times.size(), 25U);
+    }
 }
 
 TEST(ClipFrames, EndsOnTheDuration) {

@@ -147,5 +147,26 @@ TEST(KeyframePath, BeatsTheChoiceFrameByFrame) {
   }
 }
 
+// By hand: every keyframe wants to be passed at double speed. With a tempo of at most 1.25 one frame may be
+// skipped in four, so 9 frames get no farther than 8 + 2.
+TEST(KeyframePath, KeepsToTempoLimits) {
+  const OneClip clip(40);
+  std::vector<std::vector<float>> rows;
+  for (int f = 0; f < 9; ++f) {
+    rows.emplace_back(40, 0.1F);
+    rows.back()[static_cast<std::size_t>(2 * f)] = 0;
+  }
+  const DistanceTable d = table_of(rows);
+  const PathCosts free{.jump = 9}, slow{.hold_wait = PathCosts::kNever, .skip_wait = 3, .jump = 9},
+      steady{.hold_wait = PathCosts::kNever, .skip_wait = PathCosts::kNever, .jump = 9};
+  const auto length = [&](const PathCosts& costs) {
+    const auto c = best_path(d, clip.steps, clip.allowed, clip.no_cost, false, costs).candidates;
+    return c.back() - c.front();
+  };
+  EXPECT_EQ(length(free), 16);
+  EXPECT_LE(length(slow), 10);
+  EXPECT_EQ(length(steady), 8);
+}
+
 }  // namespace
 }  // namespace skinforge

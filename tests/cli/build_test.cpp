@@ -173,6 +173,29 @@ TEST_F(Build, OnlyWhatChangedRunsAgain) {
     EXPECT_TRUE(!stage.starts_with("import") || status == "hit") << stage;
 }
 
+// Settings of one clip run that clip and what is made of all clips; the others, the motion sets and the
+// surface stay.
+TEST_F(Build, SettingsOfOneClipRunThatClipAlone) {
+  const std::string recipe = copied_recipe("d7_four_armed_man.json", [](json&) {});
+  ASSERT_EQ(call(build(recipe, "out")).status, 0);
+  json changed = json::parse(read_text(folder / recipe));
+  const std::string clip = "man2_Run";
+  changed["animation"]["per_clip"][clip]["with"] = "Walk";
+  std::ofstream(folder / recipe) << changed.dump();
+  const ProgramResult result = call(build(recipe, "out"));
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (const auto& [stage, status] : statuses(result)) {
+    const bool is_clip = stage == "complete_clip " + clip || stage == "quality " + clip;
+    const bool is_made_of_all = stage == "export" || stage == "validate" || stage == "report";
+    EXPECT_EQ(status, is_clip || is_made_of_all ? "ran" : "hit") << stage;
+  }
+  const json report = json::parse(read_text(folder / "out" / "report.json"));
+  for (const json& each : report.at("clips"))
+    if (each.at("name") == clip) {
+      EXPECT_EQ(each.at("completed_from").at(0).at("clip"), "Walk");
+    }
+}
+
 TEST_F(Build, GoesOnAfterBeingKilled) {
   ASSERT_EQ(call(build(horse, "whole", "whole-cache")).status, 0);
   for (int round = 0; round < 12; ++round) {
@@ -363,6 +386,11 @@ TEST_F(Build, UnknownJointsAndClipsAreNamed) {
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("Galop"));
   EXPECT_FALSE(fs::exists(folder / "out"));
+  const std::string use = copied_recipe(
+      "d1_centaur.json", [](json& r) { r["animation"]["per_clip"]["Gallop"]["use"] = {"Rum"}; });
+  const ProgramResult used = call({"check", use, "--cache", "cache"});
+  EXPECT_EQ(used.status, 2);
+  EXPECT_THAT(used.err, HasSubstr("/animation/per_clip/Gallop/use: no clip \"Rum\" in any other input"));
 }
 
 TEST_F(Build, CheckAcceptsTheSharedRecipes) {

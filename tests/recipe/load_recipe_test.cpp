@@ -101,7 +101,7 @@ TEST(LoadRecipe, ReadsEveryKey) {
   EXPECT_THAT(recipe.animation.clips, ElementsAre("Walk", "Idle"));
   EXPECT_FALSE(recipe.animation.complete);
   EXPECT_EQ(recipe.animation.rate_hz, 24);
-  EXPECT_EQ(recipe.output, (OutputOptions{"a/centaur.glb", "centaur.obj", "centaur.vdb", 8}));
+  EXPECT_EQ(recipe.output, (OutputOptions{"a/centaur.glb", "centaur.obj", "centaur.vdb", false, {}, 8}));
 }
 
 TEST(LoadRecipe, LeavesDefaults) {
@@ -110,7 +110,35 @@ TEST(LoadRecipe, LeavesDefaults) {
   EXPECT_EQ(recipe.operations[0].blend, Blend());
   EXPECT_EQ(recipe.surface, SurfaceOptions());
   EXPECT_EQ(recipe.animation, AnimationOptions());
-  EXPECT_EQ(recipe.output, (OutputOptions{.glb = "x.glb", .obj = "", .vdb = "", .influences = 4}));
+  EXPECT_EQ(recipe.output,
+            (OutputOptions{.glb = "x.glb", .obj = "", .vdb = "", .animated = {}, .influences = 4}));
+}
+
+TEST(LoadRecipe, ReadsSettingsOfClips) {
+  const AnimationOptions options =
+      parse(with_member(R"("animation": {"method": "paper", "tempo": [0.8, 1.25], "limb_phase": 0,
+                       "key_tolerance": 0, "per_clip": {
+                         "Gallop": {"use": ["Run", "Walk"], "loop": true, "rate_hz": 24},
+                         "Idle": {"with": "Idle", "complete": false, "method": "sequence"}}})"))
+          .animation;
+  EXPECT_EQ(options.method, CompletionMethod::Paper);
+  EXPECT_THAT(options.tempo, ElementsAre(0.8, 1.25));
+  EXPECT_EQ(options.limb_phase, 0);
+  EXPECT_EQ(options.key_tolerance, 0);
+  EXPECT_EQ(options.rate_hz, std::nullopt);
+  const ClipSettings &gallop = options.per_clip.at("Gallop"), &idle = options.per_clip.at("Idle");
+  EXPECT_THAT(gallop.use, ElementsAre("Run", "Walk"));
+  EXPECT_EQ(gallop.loop, true);
+  EXPECT_EQ(gallop.rate_hz, 24);
+  EXPECT_EQ(gallop.complete, std::nullopt);
+  EXPECT_EQ(idle.with, "Idle");
+  EXPECT_EQ(idle.complete, false);
+  EXPECT_EQ(idle.method, CompletionMethod::Sequence);
+}
+
+TEST(LoadRecipe, ReadsWhatToAnimate) {
+  EXPECT_TRUE(parse(with_member(R"("output": {"animated": "all"})")).output.all_animated);
+  EXPECT_THAT(parse(with_member(R"("output": {"animated": ["Walk"]})")).output.animated, ElementsAre("Walk"));
 }
 
 // An operation takes the recipe's surface, key by key and side by side, where it does not say otherwise.
@@ -242,6 +270,14 @@ TEST(LoadRecipe, ChecksTheOtherParts) {
   expect(R"("animation": {"clips": ["a", "a"]})", "clip \"a\" is listed twice");
   expect(R"("animation": {"complete": 1})", "expected true or false, found the number 1");
   expect(R"("animation": {"rate_hz": 0})", "expected a number from 1 to 240");
+  expect(R"("animation": {"metod": "paper"})", "unknown key \"metod\" (nearest: \"method\"");
+  expect(R"("animation": {"method": "papre"})", "/animation/method: ");
+  expect(R"("animation": {"tempo": [2, 0.5]})", "expected a number from 0.5 to 1, found the number 2");
+  expect(R"("animation": {"tempo": [1]})", "expected the slowest and the fastest tempo");
+  expect(R"("animation": {"per_clip": {"Run": {"usee": []}}})", "unknown key \"usee\" (nearest: \"use\"");
+  expect(R"("animation": {"per_clip": {"Run": {"use": "Walk"}}})", "expected a list of clip names");
+  expect(R"("animation": {"per_clip": {"Run": {"use": ["Walk"], "with": "Idle"}}})",
+         "/animation/per_clip/Run/use: \"with\" already says which clip is played");
   expect(R"("output": {"influences": 5})", "expected 4 or 8, found the number 5");
   expect(R"("output": {"glb": "../x.glb"})", "must be a plain path inside the output folder");
   expect(R"("output": {"glb": "/tmp/x.glb"})", "must be a plain path inside the output folder");

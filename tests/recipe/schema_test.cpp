@@ -98,8 +98,8 @@ TEST(RecipeSchema, EveryPropertyIsExplained) {
     const bool has_no_default = is_inherited || is_side || place.ends_with("/voxel");
     EXPECT_TRUE(!(is_number || type == "boolean") || property.contains("default") || has_no_default);
   });
-  EXPECT_EQ(count, 61);  // 9 of the recipe, 4 + 2 of an input, 7 + 4 of an operation, twice 8 + 2 + 4 of its
-                         // surface, 3 and 4
+  EXPECT_EQ(count, 77);  // 9 of the recipe, 4 + 2 of an input, 7 + 4 + 2 of an operation, twice 8 + 2 + 4 of its
+                         // surface, 8 + 8 and 5 of the rest
 }
 
 struct Case {
@@ -133,7 +133,9 @@ TEST(RecipeSchema, AgreesWithTheParser) {
       {"blend operator", operation(kPart + R"("blend": {"operator": "gradient", "radius": 0.1})"), true},
       {"all options",
        member(R"("surface": {"voxel_factor": 1, "presence_smoothing": 0, "keep_or_drop": {"mean": 0}},
-                 "animation": {"clips": [], "complete": false, "rate_hz": 60}, "output": {"glb": "a/b.glb", "influences": 8})"),
+                 "animation": {"clips": [], "complete": false, "method": "paper", "rate_hz": 60, "tempo": [0.5, 2],
+                   "limb_phase": 0.5, "key_tolerance": 0, "per_clip": {"Run": {"use": ["Walk"], "loop": false}}},
+                 "output": {"glb": "a/b.glb", "animated": "all", "influences": 8})"),
        true},
       {"input object",
        head(
@@ -199,6 +201,9 @@ TEST(RecipeSchema, AgreesWithTheParser) {
       {"half a pass", member(R"("surface": {"presence_smoothing": 1.5})")},
       {"clips word", member(R"("animation": {"clips": "none"})")},
       {"rate", member(R"("animation": {"rate_hz": 0})")},
+      {"tempo", member(R"("animation": {"tempo": [2, 0.5]})")},
+      {"method", member(R"("animation": {"method": "best"})")},
+      {"use and with", member(R"("animation": {"per_clip": {"Run": {"use": ["Walk"], "with": "Idle"}}})")},
       {"complete", member(R"("animation": {"complete": "yes"})")},
       {"influences", member(R"("output": {"influences": 5})")},
       {"output leaves", member(R"("output": {"glb": "../x.glb"})")},

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <numbers>
 #include <set>
 
 #include "testing/assets.h"
@@ -23,10 +24,12 @@ using testing::Origin;
 using testing::PlacedSource;
 using testing::Program;
 
-constexpr double kFollows = 1e-4;    // of the source's diagonal
-constexpr double kWeightSum = 1e-6;  // four floats
-constexpr double kDuration = 1e-6;   // of the duration; a float
-constexpr double kFastest = 1.1;     // of the fastest joint of the sources
+constexpr double kFollows = 1e-5;      // of the source's diagonal
+constexpr double kWeightSum = 1e-6;    // four floats
+constexpr double kDuration = 1e-6;     // of the duration; a float
+constexpr double kFastest = 1.0001;    // of the fastest joint of the sources; floats of near keys
+constexpr double kLoopGap = 0.02;      // of the joint's own range in the clip
+constexpr double kStandsStill = 1e-3;  // ours: radians; of a joint that turns less no gap is asked
 
 std::vector<std::string> recipes() {
   std::vector<std::string> found;
@@ -192,13 +195,27 @@ double departure(const std::vector<Vec3>& now, const std::vector<Vec3>& wanted, 
   return (a - b).colwise().norm().maxCoeff();
 }
 
+// Both ends of a clip, some of its keys, and times between them.
+std::vector<double> times_to_look_at(const Clip& clip) {
+  const std::vector<double>* densest = nullptr;
+  for (const JointTracks& tracks : clip.joints)
+    if (densest == nullptr || tracks.rotation.times.size() > densest->size())
+      densest = &tracks.rotation.times;
+  std::vector<double> times = {0, clip.duration};
+  for (int i = 1; densest != nullptr && densest->size() > 1 && i <= 3; ++i) {
+    const std::size_t key = (densest->size() - 1) * static_cast<std::size_t>(i) / 4;
+    times.push_back((*densest)[key]);
+    times.push_back(0.63 * (*densest)[key] + 0.37 * (*densest)[key + 1]);
+  }
+  return times;
+}
+
 double worst_departure(const FinishedCharacter& result, const std::vector<Pair>& pairs,
                        const PlacedSource& source, const json& clip) {
   const std::size_t source_clip = result.source_clip(clip);
-  const double duration = source.model->character().clips[source_clip].duration;
   const bool is_carried = !source.is_base || result.has_operation("detach");
   double worst = 0;
-  for (const double time : {0.0, 0.31 * duration, 0.77 * duration, duration}) {
+  for (const double time : times_to_look_at(source.model->character().clips[source_clip])) {
     const auto posed = result.glb().pose(result.animation(clip.at("name")), time);
     const auto source_posed = source.model->pose(source_clip, time);
     std::vector<Vec3> now, wanted;
@@ -272,6 +289,52 @@ TEST_P(FinishedCharacterTest, NoJointTurnsTooFast) {
       EXPECT_LE(testing::fastest_turn(keys.times, keys.values), kFastest * fastest)
           << glb().node_name(keys.node) << " in " << glb().animation_name(a);
     }
+}
+
+// The clip of the report of this name.
+const json& clip_named(const json& report, const std::string& name) {
+  for (const json& clip : report.at("clips"))
+    if (clip.at("name") == name) return clip;
+  throw std::invalid_argument("no clip " + name);
+}
+
+// How far apart the ends of a loop are, as places and as velocities, over how far the joint strays from its
+// first key. The velocities are those of a 60th of a second.
+double loop_gap(const GltfEvaluator::RotationKeys& keys) {
+  double range = 0;
+  for (const Quat& q : keys.values) range = std::max(range, keys.values[0].angularDistance(q));
+  if (range < kStandsStill) return 0;
+  const auto turn_in_a_step = [](const Quat& from, const Quat& to, double seconds) {
+    const Eigen::AngleAxisd turn(from.conjugate() * to);
+    const double angle = turn.angle() > std::numbers::pi ? turn.angle() - 2 * std::numbers::pi : turn.angle();
+    return Vec3(turn.axis() * angle / seconds / 60);
+  };
+  const std::size_t n = keys.values.size();
+  const Vec3 in =
+      turn_in_a_step(keys.values[n - 2], keys.values[n - 1], keys.times[n - 1] - keys.times[n - 2]);
+  const Vec3 out = turn_in_a_step(keys.values[0], keys.values[1], keys.times[1] - keys.times[0]);
+  double fastest = 0;  // change of velocity inside the clip
+  for (std::size_t k = 1; k + 1 < n; ++k)
+    fastest = std::max(
+        fastest, (turn_in_a_step(keys.values[k - 1], keys.values[k], keys.times[k] - keys.times[k - 1]) -
+                  turn_in_a_step(keys.values[k], keys.values[k + 1], keys.times[k + 1] - keys.times[k]))
+                     .norm());
+  const double kink = std::max(0.0, (in - out).norm() - fastest);
+  return std::max(keys.values[0].angularDistance(keys.values[n - 1]), kink) / range;
+}
+
+// Completed joints of a loop end where they begin, and as fast, but for changes of speed that they have
+// inside the clip, too.
+TEST_P(FinishedCharacterTest, LoopsAreClosed) {
+  const auto inputs = result().inputs_of_nodes();
+  for (int a = 0; a < glb().animation_count(); ++a) {
+    const json& clip = clip_named(report(), glb().animation_name(a));
+    if (clip.at("playback") != "loop") continue;
+    for (const auto& keys : glb().rotation_keys(a)) {
+      if (inputs[static_cast<std::size_t>(keys.node)] == clip.at("input") || keys.values.size() < 3) continue;
+      EXPECT_LE(loop_gap(keys), kLoopGap) << glb().node_name(keys.node) << " in " << glb().animation_name(a);
+    }
+  }
 }
 
 std::string test_name(const ::testing::TestParamInfo<std::string>& info) {

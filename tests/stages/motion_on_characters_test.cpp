@@ -39,7 +39,7 @@ struct Mixed {
     maps = build_joint_maps(skeletons, graft);
     for (std::size_t k = 0; k < graft.sources.size(); ++k)
       motions.push_back(
-          build_motion_set(inputs[graft.sources[k].input], graft, SourceId(k), maps[k], options));
+          build_motion_set(inputs[graft.sources[k].input], graft, SourceId(k), maps[k]));
   }
   Mixed(const Mixed&) = delete;
 

@@ -1,0 +1,124 @@
+#include "animation/part_tracks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "animation/limbs.h"
+
+namespace skinforge {
+namespace {
+
+constexpr double kSameTurn = 1e-5;    // radians; ours: below what a float quaternion resolves twice over
+constexpr double kSameLength = 1e-5;  // ours: of the value itself, as kSameTurn
+constexpr double kOnFrame = 1e-6;     // frames; rounding of a time over a step
+
+// The motion of one joint at a fractional search frame.
+Transform played(const PartMotion& motion, double frame, JointId joint) {
+  const auto n = static_cast<double>(motion.playback.size());
+  frame = motion.is_loop ? frame - n * std::floor(frame / n) : std::clamp(frame, 0.0, n - 1);
+  const double nearest = std::round(frame);
+  if (std::abs(frame - nearest) < kOnFrame)
+    return joint_at(*motion.set, motion.playback[static_cast<std::size_t>(nearest) % motion.playback.size()],
+                    joint);
+  const auto before = static_cast<std::size_t>(frame);
+  return blend(joint_at(*motion.set, motion.playback[before], joint),
+               joint_at(*motion.set, motion.playback[(before + 1) % motion.playback.size()], joint),
+               frame - static_cast<double>(before));
+}
+
+bool same(const Vec3& a, const Vec3& b) {
+  return (a - b).norm() <= kSameLength * std::max(a.norm(), b.norm());
+}
+bool same(const Quat& a, const Quat& b) {
+  return a.angularDistance(b) <= kSameTurn;
+}
+
+// One key when the value never changes, none when it is the bind value.
+template <class Value>
+Track<Value> make_track(std::vector<Value> values, const Value& bind, const ClipFrames& grid) {
+  Track<Value> track;
+  const bool constant =
+      std::all_of(values.begin(), values.end(), [&](const Value& v) { return same(v, values.front()); });
+  if (constant && same(values.front(), bind)) return track;
+  if (constant) values.resize(1);
+  for (std::size_t f = 0; f < values.size(); ++f) track.times.push_back(constant ? 0 : grid.time(f));
+  track.values = std::move(values);
+  return track;
+}
+
+// Neighbouring keys on the same side of the sphere, for readers that interpolate without looking.
+void align_signs(std::vector<Quat>& rotations) {
+  for (std::size_t k = 1; k < rotations.size(); ++k)
+    if (rotations[k].dot(rotations[k - 1]) < 0) rotations[k].coeffs() *= -1;
+}
+
+// (1 2 1) / 4; the ends of what is no loop see themselves.
+void smooth_rotations(std::vector<Quat>& rotations, bool is_loop) {
+  const std::vector<Quat> old = rotations;
+  const std::size_t n = old.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Quat& before = old[k > 0 ? k - 1 : (is_loop ? n - 1 : 0)];
+    const Quat& after = old[k + 1 < n ? k + 1 : (is_loop ? 0 : n - 1)];
+    const auto beside = [&](const Quat& q) { return Vec4(q.dot(old[k]) < 0 ? -q.coeffs() : q.coeffs()); };
+    rotations[k] = Quat(Vec4(beside(before) + 2 * old[k].coeffs() + beside(after))).normalized();
+  }
+}
+
+JointTracks make_tracks(JointId joint, const Joint& result, std::span<const Transform> locals,
+                        const PartMotion& motion) {
+  std::vector<Vec3> translations, scales;
+  std::vector<Quat> rotations;
+  for (const Transform& local : locals) {
+    translations.push_back(local.translation);
+    rotations.push_back(local.rotation);
+    scales.push_back(local.scale);
+  }
+  if (motion.is_smoothed)
+    smooth_rotations(rotations, motion.is_loop);
+  else
+    limit_turns(rotations, motion.set->fastest_turn * motion.keys.step(), motion.is_loop);
+  if (motion.is_loop) {
+    translations.push_back(translations.front());
+    rotations.push_back(rotations.front());
+    scales.push_back(scales.front());
+  }
+  align_signs(rotations);
+  return {joint, make_track(std::move(translations), result.bind.translation, motion.keys),
+          make_track(std::move(rotations), result.bind.rotation, motion.keys),
+          make_track(std::move(scales), result.bind.scale, motion.keys)};
+}
+
+// Search frames that the part shows at its keys; in a loop the last key repeats the first.
+std::vector<double> frames_at_keys(const PartMotion& motion) {
+  std::vector<double> frames;
+  const double last = static_cast<double>(motion.search.count - 1);
+  const std::size_t count = motion.is_loop ? motion.keys.count - 1 : motion.keys.count;
+  for (std::size_t k = 0; k < count; ++k)
+    frames.push_back(
+        delayed_frame(motion.keys.time(k) / motion.search.step(), motion.delay, last, motion.is_loop));
+  return frames;
+}
+
+}  // namespace
+
+std::vector<JointTracks> part_tracks(const Graft& graft, SourceId source, const PartMotion& motion) {
+  const auto& result_joint = graft.sources[source.index()].result_joint;
+  const std::vector<double> frames = frames_at_keys(motion);
+  std::vector<Transform> locals(frames.size());
+  std::vector<JointTracks> all;
+  for (std::size_t j = 0; j < result_joint.size(); ++j) {
+    const JointId result = result_joint[j];
+    if (!result.is_valid()) continue;
+    const Similarity& change = graft.origins[result.index()].change;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      locals[k] = played(motion, frames[k], JointId(j));
+      if (!change.is_identity()) locals[k] = premultiplied(change, locals[k]);
+    }
+    JointTracks tracks = make_tracks(result, graft.skeleton[result], locals, motion);
+    const bool stays = tracks.translation.is_empty() && tracks.rotation.is_empty() && tracks.scale.is_empty();
+    if (!stays) all.push_back(std::move(tracks));
+  }
+  return all;
+}
+
+}  // namespace skinforge
