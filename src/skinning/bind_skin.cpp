@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/expect.h"
+#include "geometry/triangle_bvh.h"
 #include "geometry/vertex_sets.h"
 #include "skinning/harmonic_weights.h"
 
@@ -34,6 +35,7 @@ class Binder {
         issues_(issues),
         segments_(bone_segments(skeleton)),
         triangles_(triangulate(mesh).triangles) {
+    drop_movers();
     if (triangles_.empty()) throw Error(ExitCode::BadInput, place + ": a mesh without faces cannot be bound");
     if (segments_.empty()) throw Error(ExitCode::BadInput, place + ": a skeleton without bones cannot bind");
   }
@@ -50,6 +52,42 @@ class Binder {
   }
 
  private:
+  // A root that stands on the ground below the character places it and is no bone of it: joints from the root
+  // on whose segments run outside the surface for more than half of their length hold nothing.
+  void drop_movers() {
+    std::vector<std::array<std::int32_t, 3>> soup;
+    for (const VertexTriangle& t : triangles_) soup.push_back({t[0].value, t[1].value, t[2].value});
+    const TriangleBvh bvh(mesh_.positions, soup);
+    std::vector<JointId> movers;
+    for (std::size_t j = 0; j < skeleton_.size(); ++j) {
+      const JointId joint(j), parent = skeleton_[joint].parent;
+      const bool is_below_mover = parent.is_valid() && has_bone(parent) &&
+                                  std::find(movers.begin(), movers.end(), parent) == movers.end();
+      if (is_below_mover) break;  // parents come first: everything behind hangs under a bone
+      if (has_bone(joint) && is_outside(joint, bvh)) movers.push_back(joint);
+    }
+    const auto moves = [&](const BoneSegment& s) {
+      return std::find(movers.begin(), movers.end(), s.joint) != movers.end();
+    };
+    if (std::all_of(segments_.begin(), segments_.end(), moves)) return;  // a skeleton beside its mesh
+    std::erase_if(segments_, moves);
+    if (!movers.empty())
+      issues_.note(
+          "bind-joints-outside", place_,
+          fmt::format("{} joints above the first bone inside the surface only place the character: {}",
+                      movers.size(), some_names(skeleton_, movers)));
+  }
+  bool is_outside(JointId joint, const TriangleBvh& bvh) const {
+    constexpr int kSamples = 16;
+    int outside = 0, count = 0;
+    for (const BoneSegment& s : segments_) {
+      if (s.joint != joint) continue;
+      for (int i = 0; i < kSamples; ++i, ++count)
+        outside += bvh.winding_number(s.a + (s.b - s.a) * (i + 0.5) / kSamples) < 0.5 ? 1 : 0;
+    }
+    return 2 * outside > count;
+  }
+
   void bind_by_handles() {
     skin_.handles = options_.handles.empty() ? handles_by_distance(mesh_.positions, segments_, options_.rule)
                                              : options_.handles;

@@ -31,6 +31,8 @@ struct BoundSkin {
 /// A skin for a mesh without one. What the method leaves open is settled here and reported at `place`:
 ///  - parts that no handle reaches go rigidly with the bone nearest to them on average;
 ///  - weights outside [0, 1] are clamped and rows scaled to sum 1, before the cut to `influences`;
+///  - joints from the root on that run outside the surface for more than half of their length only place the
+///    character and hold nothing;
 ///  - joints without handle are named.
 /// Throws Error (BadInput) for a mesh without faces, a skeleton without bones, or no handle at all.
 BoundSkin bind_skin(const PolygonMesh& mesh, const Skeleton& skeleton, const BindOptions& options,

@@ -118,6 +118,25 @@ TEST(BindSkin, HeatReachesEveryPart) {
   for (std::size_t v = 84; v < mesh.vertex_count(); ++v) EXPECT_GT(weight_of(skin.weights, v, 1), 0.9);
 }
 
+// A root far below the bar, which only places it: no vertex follows it, by either method.
+TEST(BindSkin, ARootOnTheGroundHoldsNothing) {
+  Skeleton skeleton = chain();
+  for (Joint& joint : skeleton.joints) joint.parent = JointId(joint.parent.value + 1);
+  Joint root;
+  root.name = "root";
+  root.bind.translation = Vec3(0, -1, 0);
+  root.joint_from_model.translation() = Vec3(0, 1, 0);
+  skeleton.joints[0].bind.translation = Vec3(0, 1, 0);
+  skeleton.joints.insert(skeleton.joints.begin(), root);
+  const PolygonMesh mesh = testing::polygon_mesh(bar(20));
+  for (const BindMethod method : {BindMethod::Heat, BindMethod::Harmonic}) {
+    IssueSink issues;
+    const BoundSkin skin = bind_skin(mesh, skeleton, {.method = method}, "bar", issues);
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) EXPECT_EQ(weight_of(skin.weights, v, 0), 0);
+    EXPECT_THAT(codes(issues), ::testing::Contains("bind-joints-outside"));
+  }
+}
+
 TEST(BindSkin, InfluencesAreCut) {
   const PolygonMesh mesh = testing::polygon_mesh(bar(20));
   IssueSink issues;
