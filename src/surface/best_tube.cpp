@@ -71,6 +71,10 @@ std::span<const TubeOptions> options_for(std::size_t borders) {
 // Rows more than the borders' pace asks for: a few where they are deep beside the shape that they follow.
 constexpr int kMoreRows[] = {0, 1, -1, 2, 3, 4};
 
+// Where the first table gives faces as bad as this, other rows do not mend them (ours: a least scaled
+// Jacobian).
+constexpr double kHopeless = -0.45;
+
 // How a tube gets its tables, and how one is made of them.
 struct Maker {
   std::function<std::optional<TubeTable>(int rows, const TubeOptions&)> table;
@@ -84,10 +88,15 @@ void try_tables(const QuadTube& tube, const Maker& maker, std::size_t borders, C
       const int rows = tube.wanted_rows() + more;
       const auto table = maker.table(rows, options);
       if (!table || std::find(tried.begin(), tried.end(), std::pair(rows, *table)) != tried.end()) continue;
+      double least = -1;
       for (const bool is_polished : {true, false}) {
-        if (auto made = maker.made(*table, rows, is_polished)) choice.offer(*std::move(made));
+        if (auto made = maker.made(*table, rows, is_polished)) {
+          least = std::max(least, least_scaled_jacobian(*made));
+          choice.offer(*std::move(made));
+        }
         if (choice.is_good()) return;
       }
+      if (tried.empty() && least < kHopeless) return;
       tried.emplace_back(rows, *table);
     }
 }
