@@ -60,7 +60,7 @@ bool has_area(const Vec3& cross, const Vec3& a, const Vec3& b, const Vec3& c) {
 // Whether moving `v` to `place` turns over any of its faces, or leaves one of them without area.
 bool turns_faces(const Mesh& mesh, VertexHandle v, const Vec3& place, VertexHandle except_a = VertexHandle(),
                  VertexHandle except_b = VertexHandle()) {
-  constexpr double kLeastCosine = 0.2;  // ours: a face may turn by at most about 78 degrees in one step
+  constexpr double kLeastCosine = 0.25;  // ours: a face may turn by at most about 75 degrees in one step
   for (const HalfedgeHandle h : mesh.voh_range(v)) {
     if (mesh.is_boundary(h)) continue;
     const VertexHandle p = mesh.to_vertex_handle(h), q = mesh.to_vertex_handle(mesh.next_halfedge_handle(h));
