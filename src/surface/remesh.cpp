@@ -57,10 +57,13 @@ bool has_area(const Vec3& cross, const Vec3& a, const Vec3& b, const Vec3& c) {
   return cross.norm() > kNoArea * longest;
 }
 
+// Ours: a face may turn by at most about 78 degrees in one step of relaxation, 75 where an edge collapses.
+constexpr double kTurnsWhenMoved = 0.2, kTurnsWhenCollapsed = 0.25;
+
 // Whether moving `v` to `place` turns over any of its faces, or leaves one of them without area.
-bool turns_faces(const Mesh& mesh, VertexHandle v, const Vec3& place, VertexHandle except_a = VertexHandle(),
-                 VertexHandle except_b = VertexHandle()) {
-  constexpr double kLeastCosine = 0.2;  // ours: a face may turn by at most about 78 degrees in one step
+// `least_cosine`: of the angle by which a face may turn.
+bool turns_faces(const Mesh& mesh, VertexHandle v, const Vec3& place, double least_cosine,
+                 VertexHandle except_a = VertexHandle(), VertexHandle except_b = VertexHandle()) {
   for (const HalfedgeHandle h : mesh.voh_range(v)) {
     if (mesh.is_boundary(h)) continue;
     const VertexHandle p = mesh.to_vertex_handle(h), q = mesh.to_vertex_handle(mesh.next_halfedge_handle(h));
@@ -68,7 +71,7 @@ bool turns_faces(const Mesh& mesh, VertexHandle v, const Vec3& place, VertexHand
     const Vec3 before = face_cross(mesh.point(v), mesh.point(p), mesh.point(q));
     const Vec3 after = face_cross(place, mesh.point(p), mesh.point(q));
     if (!has_area(before, mesh.point(v), mesh.point(p), mesh.point(q))) continue;
-    if (after.dot(before) < kLeastCosine * after.norm() * before.norm() ||
+    if (after.dot(before) < least_cosine * after.norm() * before.norm() ||
         after.norm() < 1e-3 * before.norm())
       return true;
   }
@@ -125,7 +128,7 @@ void collapse_short_edges(Mesh& mesh, const RemeshOptions& options) {
     if (!h.is_valid() || !mesh.is_collapse_ok(h)) continue;
     if (makes_long_edges(mesh, h, options.split_ratio) || makes_chord(mesh, h)) continue;
     const VertexHandle gone = mesh.from_vertex_handle(h), stays = mesh.to_vertex_handle(h);
-    if (turns_faces(mesh, gone, mesh.point(stays), stays)) continue;
+    if (turns_faces(mesh, gone, mesh.point(stays), kTurnsWhenCollapsed, stays)) continue;
     mesh.collapse(h);
   }
   mesh.garbage_collection();
@@ -208,9 +211,9 @@ void relax(Mesh& mesh, const Projection& project, double share) {
   }
   for (const VertexHandle v : mesh.vertices()) {
     Vec3 place = places[v.idx()];
-    for (int halving = 0; halving < 3 && turns_faces(mesh, v, place); ++halving)
+    for (int halving = 0; halving < 3 && turns_faces(mesh, v, place, kTurnsWhenMoved); ++halving)
       place = 0.5 * (place + mesh.point(v));
-    if (!turns_faces(mesh, v, place)) mesh.set_point(v, place);
+    if (!turns_faces(mesh, v, place, kTurnsWhenMoved)) mesh.set_point(v, place);
   }
 }
 
