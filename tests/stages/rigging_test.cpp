@@ -60,8 +60,8 @@ TEST(Rigging, BoundHumanMovesLikeTheOriginal) {
   const Character original = import_character(testing::repository_file("data/human.glb"), issues);
   for (const auto method : {RecipeBindMethod::Heat, RecipeBindMethod::Harmonic}) {
     const SkinDistance d = distance(sample_human(method).character, original);
-    EXPECT_LT(d.mean, method == RecipeBindMethod::Heat ? 0.004 : 0.006);
-    EXPECT_LT(d.largest, method == RecipeBindMethod::Heat ? 0.06 : 0.12);
+    EXPECT_LT(d.mean, method == RecipeBindMethod::Heat ? 0.0018 : 0.002);
+    EXPECT_LT(d.largest, method == RecipeBindMethod::Heat ? 0.045 : 0.06);
   }
 }
 
