@@ -16,6 +16,7 @@ ALLOWED = {
     "field": {"base", "model", "geometry"},
     "surface": {"base", "model", "geometry", "field"},
     "skinning": {"base", "model", "skeleton", "geometry"},
+    "deform": {"base", "model", "skeleton", "geometry", "skinning"},
     "animation": {"base", "model", "skeleton"},
     "texture": {"base", "model", "geometry"},
     "render": {"base", "model", "geometry"},

@@ -42,6 +42,7 @@ class Parser {
     line_.jobs = std::max(1U, std::thread::hardware_concurrency());
     line_.cache = default_cache();
     add_recipe_verbs();
+    add_skinning_verbs();
     add_stage_verbs();
     add_cache_verbs();
     add_other_verbs();
@@ -223,6 +224,95 @@ class Parser {
     add_recipes(plan);
     add_report_option(plan);
     add_work_options(plan);
+  }
+
+  // What makes a model with a skin of the files that are named.
+  void add_rig_options(CLI::App* app) {
+    SkinningRequest& request = line_.skinning;
+    app->add_option("MODEL", line_.file, "Model: .obj, .off, .glb, .fbx, ...")->required()->type_name("");
+    app->add_option("--skeleton", request.skeleton,
+                    "Bones: a .tgf file, or a model whose joints and clips to take")
+        ->type_name("FILE")
+        ->group("Skin");
+    app->add_option("--method", request.bind_method,
+                    "How to bind: harmonic (over the surface from handles) or heat (through the inside)")
+        ->check(CLI::IsMember({"harmonic", "heat"}).description(""))
+        ->type_name("METHOD")
+        ->default_str("harmonic")
+        ->group("Skin");
+    app->add_option(
+           "--handles", request.handles,
+           "Vertices that bones hold alone: rule, groups, a .dmat of labels, or a .json of vertex lists")
+        ->type_name("WHAT")
+        ->default_str("rule")
+        ->group("Skin");
+    app->add_option("--poses", request.poses, "Rotations of all bones, a .dmat file each; becomes a clip")
+        ->type_name("FILE")
+        ->group("Skin");
+    app->add_option("--rate", request.rate_hz, "Frames a second of those, 1 to 240")
+        ->check(CLI::Range(1.0, 240.0).description(""))
+        ->type_name("HZ")
+        ->default_str("30")
+        ->group("Skin");
+    app->add_option("-o,--out", line_.out, "Output folder")
+        ->type_name("DIR")
+        ->default_str("out/<model>")
+        ->group("Output");
+  }
+
+  void add_frame_options(CLI::App* app) {
+    constexpr std::size_t kMaxFrames = 100000;  // ours: an hour at 30 a second
+    SkinningRequest& request = line_.skinning;
+    app->add_option("--clip", request.clip, "Clip to play")
+        ->type_name("NAME")
+        ->default_str("the first")
+        ->group("Frames");
+    app->add_option("--frames", request.frames, "Frames, evenly over the clip")
+        ->check(CLI::Range(std::size_t{1}, kMaxFrames).description(""))
+        ->type_name("N")
+        ->default_str("24")
+        ->group("Frames");
+    app->add_option("--example", request.examples,
+                    "A shape of the model and its pose, for the context methods")
+        ->type_name("SHAPE POSE")
+        ->expected(2)
+        ->take_all()
+        ->group("Frames");
+  }
+
+  void add_skinning_verbs() {
+    CLI::App* bind = add_verb(&app_, "bind", "Give a model without a skin bones and weights", Verb::Bind);
+    add_rig_options(bind);
+    bind->add_option("--influences", line_.skinning.influences, "Joints a vertex follows at most: 4 or 8")
+        ->check(CLI::IsMember(std::vector<std::size_t>{4, 8}).description(""))
+        ->type_name("N")
+        ->default_str("4")
+        ->group("Output");
+    bind->add_option("--joint", line_.skinning.joint, "Joint whose weights are drawn")
+        ->type_name("NAME")
+        ->default_str("the one with most vertices")
+        ->group("Output");
+    CLI::App* deform =
+        add_verb(&app_, "deform", "Write the shapes of a clip by a skinning method", Verb::Deform);
+    add_rig_options(deform);
+    add_frame_options(deform);
+    deform
+        ->add_option("--deform", line_.skinning.deform_method,
+                     "lbs, dqs, poisson, context, context-face or context-polar")
+        ->check(CLI::IsMember({"lbs", "dqs", "poisson", "context", "context-face", "context-polar"})
+                    .description(""))
+        ->type_name("METHOD")
+        ->default_str("lbs")
+        ->group("Frames");
+    deform->add_option("--format", line_.skinning.format, "obj or ply")
+        ->check(CLI::IsMember({"obj", "ply"}).description(""))
+        ->type_name("FORMAT")
+        ->default_str("obj")
+        ->group("Output");
+    CLI::App* compare = add_verb(&app_, "compare-skinning",
+                                 "Measure and draw a clip by every skinning method", Verb::CompareSkinning);
+    add_rig_options(compare);
+    add_frame_options(compare);
   }
 
   void add_stage_verbs() {

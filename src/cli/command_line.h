@@ -15,6 +15,9 @@ enum class Verb {
   Check,
   Plan,
   Inspect,
+  Bind,
+  Deform,
+  CompareSkinning,
   StageRun,
   StageList,
   CacheStats,
@@ -26,6 +29,22 @@ enum class Verb {
   Help
 };
 
+/// What the verbs of the skinning toolkit are told. The model itself is CommandLine::file.
+struct SkinningRequest {
+  std::string skeleton;                  ///< .tgf or a model; empty: the model has its skin
+  std::string handles = "rule";          ///< or "groups", or a file
+  std::string bind_method = "harmonic";  ///< or "heat"
+  std::vector<std::string> poses;        ///< .dmat files
+  std::vector<std::string> examples;     ///< shape and pose in turn
+  std::string deform_method = "lbs";     ///< deform
+  std::string clip;                      ///< empty: the first
+  std::string format = "obj";            ///< or "ply"; deform
+  std::string joint;                     ///< whose weights bind draws; empty: the one with most vertices
+  std::size_t frames = 24;
+  std::size_t influences = 4;  ///< bind
+  double rate_hz = 30;         ///< of .dmat files
+};
+
 /// What the person asked for. Defaults are those that the help prints.
 struct CommandLine {
   Verb verb = Verb::Help;
@@ -33,9 +52,10 @@ struct CommandLine {
   Verbosity verbosity = Verbosity::Normal;
   std::vector<std::string> recipes;  ///< build, check, plan: one or more; stage: one
   std::string stage;                 ///< label, stage run
-  std::string file;                  ///< inspect
-  std::string out;                   ///< empty: out/<name>
-  std::string cache;                 ///< folder, settled: --cache, $SKINFORGE_CACHE or .skinforge/cache
+  std::string file;                  ///< inspect, bind, deform, compare-skinning
+  SkinningRequest skinning;
+  std::string out;    ///< empty: out/<name>
+  std::string cache;  ///< folder, settled: --cache, $SKINFORGE_CACHE or .skinforge/cache
   std::size_t jobs = 1;
   ReportLevel report{};           ///< as the parser sets it: Full unless asked otherwise
   std::string schema = "recipe";  ///< or "report"

@@ -20,6 +20,7 @@
 #include "io/dae_check.h"
 #include "io/fbx_animation.h"
 #include "io/fbx_scene.h"
+#include "io/file_kind.h"
 #include "io/memory_io_system.h"
 #include "io/trs.h"
 
@@ -28,12 +29,6 @@ namespace {
 
 constexpr double kShear = 1e-4;  // a float matrix that went through a chain of products is this far from TRS
 constexpr std::string_view kPivotMark = "_$AssimpFbx$_";  // Assimp's names for the steps of an FBX transform
-
-std::string lower_extension(const std::string& path) {
-  std::string extension = path.substr(std::min(path.size(), path.rfind('.')));
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
 
 /// An importer set as `design/dependencies.md` measured; owns the scene it reads.
 class Reading {

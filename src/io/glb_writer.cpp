@@ -10,6 +10,7 @@
 #include "io/glb_json.h"
 #include "io/glb_materials.h"
 #include "io/gltf_json.h"
+#include "io/written_weights.h"
 
 namespace skinforge {
 namespace {
@@ -17,19 +18,6 @@ namespace {
 using Use = GlbBuffer::Use;
 
 constexpr const char* kPolygons = "FB_ngon_encoding";
-
-/// A row cut to `limit` influences whose float weights sum to 1 to half a rounding of the largest.
-std::vector<Influence> float_row(std::span<const Influence> row, std::size_t limit) {
-  std::vector<Influence> cut = normalised_row({row.begin(), row.end()}, limit);
-  double others = 0;
-  for (std::size_t k = 1; k < cut.size(); ++k) {
-    cut[k].weight = static_cast<double>(static_cast<float>(cut[k].weight));
-    others += cut[k].weight;
-  }
-  if (!cut.empty()) cut.front().weight = 1 - others;
-  std::erase_if(cut, [](const Influence& i) { return static_cast<float>(i.weight) == 0.0F; });
-  return cut;
-}
 
 /// The joints and weights of a primitive, in groups of four.
 struct WeightSet {
@@ -225,7 +213,7 @@ class GlbWriter {
     std::vector<std::vector<Influence>> rows;
     std::size_t longest = 1;
     for (const VertexId v : primitive.vertex) {
-      rows.push_back(float_row(character_.weights.of(v), options_.max_influences));
+      rows.push_back(written_row(character_.weights.of(v), options_.max_influences));
       longest = std::max(longest, rows.back().size());
     }
     std::vector<WeightSet> sets((longest + 3) / 4);

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/file_kind.h"
 #include "io/glb_container.h"
 #include "io/gltf_json.h"
 #include "io/gltf_uri.h"
@@ -69,13 +70,6 @@ Bytes read_all(const std::string& path, int number, std::size_t expected, std::s
   }
   bytes.resize(filled);
   return bytes;
-}
-
-std::string lower_extension(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 /// A file that an asset names, and whether it can do without.

@@ -1,7 +1,4 @@
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
+#include "io/file_kind.h"
 #include "io/gltf_reader.h"
 #include "io/import.h"
 #include "io/off_reader.h"
@@ -10,9 +7,7 @@
 namespace skinforge {
 
 RawScene read_scene(const std::vector<InputFile>& files) {
-  std::string ending = std::filesystem::path(files.front().path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_extension(files.front().path);
   if (ending == ".glb" || ending == ".gltf") return read_gltf(files);
   if (ending == ".off") return read_off(files.front());
   return read_in_child(files);

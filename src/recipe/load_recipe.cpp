@@ -16,7 +16,10 @@ namespace {
 constexpr int kRecipeVersion = 1;
 constexpr std::size_t kMaxOperations = 10000;  // ours: refuses nonsense, not work
 constexpr std::size_t kMaxIncludeDepth = 16;   // ours: recipes in recipes in recipes
-constexpr double kMaxLength = 1e9;             // ours: metres and factors; keeps sums and products finite
+const std::initializer_list<std::string_view> kKeys = {
+    "$schema", "recipe_version", "name",      "inputs",      "base",
+    "ops",     "surface",        "animation", "correctives", "output"};
+constexpr double kMaxLength = 1e9;  // ours: metres and factors; keeps sums and products finite
 constexpr double kLeastVoxel = 1e-6, kMostVoxel = 1e6;  // ours: metres; beside any character
 
 std::string extension_of(const fs::path& path) {
@@ -68,8 +71,7 @@ class RecipeReader {
     const std::string file = path_.string();
     const ValueReader reader(root, file, "");
     expect_version(reader);
-    const ObjectReader object = reader.object(
-        {"$schema", "recipe_version", "name", "inputs", "base", "ops", "surface", "animation", "output"});
+    const ObjectReader object = reader.object(kKeys);
     if (const auto schema = object.find("$schema")) schema->text();
     recipe_.name = safe_name(object.at("name"));
     read_inputs(object.at("inputs"));
@@ -77,6 +79,7 @@ class RecipeReader {
     if (const auto surface = object.find("surface")) read_surface(*surface, recipe_.surface);
     if (const auto ops = object.find("ops")) read_operations(*ops);
     if (const auto animation = object.find("animation")) recipe_.animation = read_animation(*animation);
+    if (const auto correctives = object.find("correctives")) read_correctives(*correctives);
     recipe_.output.glb = recipe_.name + ".glb";
     if (const auto output = object.find("output")) read_output(*output);
     collect_places(root, file, "", recipe_.places);
@@ -91,8 +94,7 @@ class RecipeReader {
       value.fail(
           fmt::format("expected recipe version {}, found {}", kRecipeVersion, value.value().describe()));
     }
-    reader.object(
-        {"$schema", "recipe_version", "name", "inputs", "base", "ops", "surface", "animation", "output"});
+    reader.object(kKeys);
     reader.fail(fmt::format("missing key \"recipe_version\" (this tool reads version {})", kRecipeVersion));
   }
 
@@ -153,16 +155,72 @@ class RecipeReader {
       return input;
     }
     if (!reader.is_object()) reader.fail_expected("a path, or an object with \"file\" or \"recipe\"");
-    const ObjectReader object = reader.object({"file", "recipe", "clips", "pose"});
+    const ObjectReader object = reader.object({"file", "recipe", "clips", "bind", "pose"});
     const auto file = object.find("file"), recipe = object.find("recipe");
     if (!file == !recipe) reader.fail("expected one of \"file\" and \"recipe\"");
     input.file = read_path(file ? *file : *recipe);
     if (recipe) input.recipe = std::make_shared<const Recipe>(included(*recipe, input.file.resolved));
     if (const auto clips = object.find("clips"))
       for (const ValueReader& clip : clips->items()) input.clips.push_back(read_path(clip));
+    if (const auto bind = object.find("bind")) {
+      if (recipe) bind->fail("the result of a recipe has its skin; bind a \"file\"");
+      input.bind = read_bind(*bind);
+    }
     if (const auto pose = object.find("pose"))
       for (const auto& [joint, change] : pose->members()) input.pose[joint] = read_pose(change);
     return input;
+  }
+
+  RecipeBind read_bind(const ValueReader& reader) const {
+    const ObjectReader object = reader.object(
+        {"skeleton", "method", "handles", "handle_factor", "handle_least", "resolution", "rate_hz"});
+    RecipeBind bind;
+    bind.skeleton = read_path(object.at("skeleton"));
+    if (const auto method = object.find("method"))
+      bind.method = method->choice<RecipeBindMethod>(
+          {{"harmonic", RecipeBindMethod::Harmonic}, {"heat", RecipeBindMethod::Heat}});
+    if (const auto handles = object.find("handles")) read_handles(*handles, bind);
+    if (const auto factor = object.find("handle_factor")) bind.handle_factor = factor->number(1, 100);
+    if (const auto least = object.find("handle_least")) bind.handle_least = least->integer(0, 100000);
+    if (const auto resolution = object.find("resolution")) bind.resolution = resolution->integer(16, 512);
+    if (const auto rate = object.find("rate_hz")) bind.rate_hz = rate->number(1, 240);
+    return bind;
+  }
+
+  void read_handles(const ValueReader& reader, RecipeBind& bind) const {
+    const std::string text = reader.text();
+    if (bind.method == RecipeBindMethod::Heat) reader.fail("method \"heat\" takes no handles");
+    if (text == "rule") return;
+    bind.from_groups = text == "groups";
+    if (bind.from_groups) return;
+    bind.handles = read_path(reader);
+    const std::string extension = extension_of(bind.handles.resolved);
+    if (extension != ".dmat" && extension != ".json")
+      reader.fail_expected("\"rule\", \"groups\", or a .dmat or .json file");
+  }
+
+  void read_correctives(const ValueReader& reader) {
+    const ObjectReader object = reader.object({"method", "targets", "enough", "examples"});
+    CorrectivesOptions& options = recipe_.correctives;
+    options.method = object.at("method").choice<RecipeDeform>({{"dqs", RecipeDeform::DualQuaternion},
+                                                               {"poisson", RecipeDeform::Poisson},
+                                                               {"context", RecipeDeform::Context}});
+    if (const auto targets = object.find("targets")) options.targets = targets->integer(1, 64);
+    if (const auto enough = object.find("enough")) options.enough = enough->number(0, 1);
+    const auto examples = object.find("examples");
+    const bool is_context = options.method == RecipeDeform::Context;
+    if (!is_context && examples) examples->fail("examples are for method \"context\"");
+    if (!is_context) return;
+    for (const ValueReader& item : object.at("examples").items()) {
+      const ObjectReader example = item.object({"shape", "pose"});
+      options.examples.push_back({read_path(example.at("shape")), read_path(example.at("pose"))});
+    }
+    if (options.examples.empty()) object.at("examples").fail("expected at least one example");
+    const bool is_bound = recipe_.inputs[recipe_.input_index(recipe_.base)].bind.has_value();
+    if (!is_bound || !recipe_.operations.empty())
+      reader.fail(
+          "examples follow the vertices of the base, which must have \"bind\", and no \"ops\" may change "
+          "them");
   }
 
   static PoseChange read_pose(const ValueReader& reader) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,12 +38,39 @@ struct RecipePath {
   std::filesystem::path resolved;  ///< beside the recipe; absolute when the recipe's path was
 };
 
+enum class RecipeBindMethod : std::uint8_t { Harmonic, Heat };
+
+/// A model without a skin that gets one: bones of another file, weights worked out here.
+struct RecipeBind {
+  RecipePath skeleton;  ///< .tgf, or a model whose joints and clips are taken
+  RecipeBindMethod method = RecipeBindMethod::Harmonic;
+  RecipePath handles;          ///< .dmat or .json; empty text: `handle_rule` or groups
+  bool from_groups = false;    ///< handles from face groups named after joints
+  double handle_factor = 1.5;  ///< of the geometric rule (ETH Sec. 4.1)
+  int handle_least = 12;       ///< vertices of a joint it widens itself to take
+  int resolution = 96;         ///< cells along the model, of Heat
+  double rate_hz = 30;         ///< frames a second of .dmat clips
+
+  /// All but where files lie.
+  template <class Archive>
+  friend void fields(Archive& a, RecipeBind& b) {
+    a(b.method, b.from_groups, b.handle_factor, b.handle_least, b.resolution, b.rate_hz);
+  }
+};
+
+/// A shape of the model in a pose, for context-aware correctives (ETH Sec. 8).
+struct RecipeExample {
+  RecipePath shape;  ///< .obj or .off, vertices as in the input's file
+  RecipePath pose;   ///< .dmat, one frame of rotations
+};
+
 /// One character that goes in: a model file, or another recipe.
 struct RecipeInput {
   std::string name;                        ///< the key in "inputs"
   RecipePath file;                         ///< the model; for { "recipe": ... } the recipe
   std::shared_ptr<const Recipe> recipe;    ///< set when the input is made by another recipe
   std::vector<RecipePath> clips;           ///< further files whose clips are added
+  std::optional<RecipeBind> bind;          ///< set when the model gets its skin here
   std::map<std::string, PoseChange> pose;  ///< by joint name
 };
 
@@ -166,6 +194,21 @@ struct AnimationOptions {
   }
 };
 
+enum class RecipeDeform : std::uint8_t { None, DualQuaternion, Poisson, Context };
+
+/// Morph targets that bring the clips to what a better skinning method gives, under plain linear blending.
+struct CorrectivesOptions {
+  RecipeDeform method = RecipeDeform::None;
+  int targets = 8;       ///< at most; [1, 64]
+  double enough = 1e-4;  ///< of the bounding box's diagonal: no more targets once the error is below
+  std::vector<RecipeExample> examples;  ///< of Context
+
+  template <class Archive>
+  friend void fields(Archive& a, CorrectivesOptions& o) {
+    a(o.method, o.targets, o.enough);
+  }
+};
+
 /// Files to write, as safe relative paths; an empty name writes no such file.
 struct OutputOptions {
   std::string glb;  ///< default: the recipe's name + ".glb"
@@ -188,6 +231,7 @@ struct Recipe {
   std::vector<RecipeOperation> operations;
   SurfaceOptions surface;
   AnimationOptions animation;
+  CorrectivesOptions correctives;
   OutputOptions output;
   std::map<std::string, std::string> places;  ///< JSON pointer -> "centaur.json:12:9"
 

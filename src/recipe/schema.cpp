@@ -66,6 +66,72 @@ Json pose() {
   return {{"type", "object"}, {"additionalProperties", change}, {"default", Json::object()}};
 }
 
+Json bind() {
+  const RecipeBind defaults;
+  return closed_object(
+      {
+          {"skeleton", described("Bones: a .tgf file, or a model whose joints and clips are taken.", path(),
+                                 {"skeleton.tgf", "human.glb"})},
+          {"method",
+           described("harmonic: over the surface from handles; heat: from the bones through the inside, "
+                     "for surfaces of many or broken parts.",
+                     {{"type", "string"}, {"enum", {"harmonic", "heat"}}, {"default", "harmonic"}},
+                     {"heat"})},
+          {"handles",
+           described("Vertices that a bone holds alone: rule (by distance), groups (face groups named "
+                     "after joints), a .dmat of labels, or a .json of vertex lists by joint.",
+                     with_default(path(), "rule"), {"handles.dmat", "groups"})},
+          {"handle_factor", described("The rule takes vertices up to this times the closest distance.",
+                                      with_default(number(1, 100, "factor"), defaults.handle_factor), {1.5})},
+          {"handle_least", described("Vertices of each joint that the rule widens itself to take.",
+                                     {{"type", "integer"},
+                                      {"minimum", 0},
+                                      {"maximum", 100000},
+                                      {"default", defaults.handle_least},
+                                      {"unit", "vertices"}},
+                                     {12})},
+          {"resolution", described("Cells along the longest side of the model, of heat.",
+                                   {{"type", "integer"},
+                                    {"minimum", 16},
+                                    {"maximum", 512},
+                                    {"default", defaults.resolution},
+                                    {"unit", "cells"}},
+                                   {96})},
+          {"rate_hz", described("Frames of .dmat clips.",
+                                with_default(number(1, 240, "1/second"), defaults.rate_hz), {30})},
+      },
+      {"skeleton"});
+}
+
+Json correctives() {
+  const CorrectivesOptions defaults;
+  const Json example = closed_object(
+      {{"shape", described("The model's vertices in a pose: .obj or .off.", path(), {"eg0.obj"})},
+       {"pose", described("That pose: rotations of all bones.", path(), {"eg0.dmat"})}},
+      {"shape", "pose"});
+  return closed_object(
+      {
+          {"method",
+           described("dqs: dual quaternions; poisson: averaged rotations, stitched; context: from examples.",
+                     {{"type", "string"}, {"enum", {"dqs", "poisson", "context"}}}, {"dqs"})},
+          {"targets", described("Morph targets at most.",
+                                {{"type", "integer"},
+                                 {"minimum", 1},
+                                 {"maximum", 64},
+                                 {"default", defaults.targets},
+                                 {"unit", "targets"}},
+                                {8})},
+          {"enough",
+           described("No more targets once the largest error is below this share of the bounding box's "
+                     "diagonal.",
+                     with_default(number(0, 1, "1"), defaults.enough), {0.0001})},
+          {"examples",
+           described("Shapes in poses, of context.", {{"type", "array"}, {"items", example}, {"minItems", 1}},
+                     {{{{"shape", "eg0.obj"}, {"pose", "eg0.dmat"}}}})},
+      },
+      {"method"});
+}
+
 Json input() {
   Json detailed = closed_object({
       {"file",
@@ -73,8 +139,10 @@ Json input() {
       {"recipe", described("Another recipe whose result is the input, relative to this one.", path(),
                            {"centaur.json"})},
       {"clips",
-       described("Further files whose clips are added.",
+       described("Further files whose clips are added; .dmat files of rotations for a .tgf skeleton.",
                  with_default({{"type", "array"}, {"items", path()}}, Json::array()), {{"walk.fbx"}})},
+      {"bind", described("Gives a model without a skin its bones and weights.", bind(),
+                         {{{"skeleton", "skeleton.tgf"}, {"method", "harmonic"}}})},
       {"pose", described("Pose of the input before it is mixed, by joint name.", pose(),
                          {{{"Head", {{"rotate_deg", {10, 0, 0}}}}}})},
   });
@@ -295,6 +363,8 @@ std::string recipe_schema() {
            described("How the junction's surface is made.", surface(true), {{{"voxel_factor", 0.8}}})},
           {"animation",
            described("Which clips, and how they are completed.", animation(), {{{"clips", "all"}}})},
+          {"correctives", described("Morph targets that correct linear blending in every clip.",
+                                    correctives(), {{{"method", "dqs"}, {"targets", 4}}})},
           {"output",
            described("Files to write, inside the output folder.", output(), {{{"glb", "centaur.glb"}}})},
       },

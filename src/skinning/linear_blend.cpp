@@ -62,6 +62,12 @@ std::vector<Vec3> linear_blend(std::span<const Vec3> positions, const SkinWeight
   return posed;
 }
 
+Affine3 blended_map(std::span<const Influence> row, std::span<const Affine3> palette) {
+  Affine3 map;
+  map.matrix() = blended_matrix(row, palette);
+  return map;
+}
+
 std::vector<Vec3> linear_blend_normals(std::span<const Vec3> normals, std::span<const VertexId> corners,
                                        const SkinWeights& weights, std::span<const Affine3> palette) {
   SF_EXPECT(normals.size() == corners.size());

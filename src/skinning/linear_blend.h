@@ -20,6 +20,9 @@ std::vector<Vec3> apply_morphs(std::span<const Vec3> positions, std::span<const 
 std::vector<Vec3> linear_blend(std::span<const Vec3> positions, const SkinWeights& weights,
                                std::span<const Affine3> palette);
 
+/// The blended matrix of one row, sum of w_j * palette_j; the identity for an empty row.
+Affine3 blended_map(std::span<const Influence> row, std::span<const Affine3> palette);
+
 /// Corner normals carried along by the inverse transpose of the blended matrix, unit length again; a zero
 /// normal, or one that a singular matrix sends to zero, comes out zero. `normals`, `corners`: #C, a normal
 /// and its vertex.

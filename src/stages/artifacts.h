@@ -6,6 +6,7 @@
 #include "io/import.h"
 #include "model/character.h"
 #include "skeleton/graft.h"
+#include "skeleton/pose.h"
 #include "skinning/weight_transfer.h"
 #include "surface/assemble.h"
 #include "texture/color_steps.h"
@@ -40,6 +41,9 @@ struct ArtifactNames {
   std::string clip(const std::string& name) const { return prefix + "clip:" + name; }
   std::string textured() const { return prefix + "textured"; }
   std::string color_steps() const { return prefix + "color_steps"; }
+  std::string examples(const std::string& input) const { return prefix + "examples:" + input; }
+  std::string correctives() const { return prefix + "correctives"; }
+  std::string driver() const { return prefix + "driver"; }
   std::string result() const { return prefix + "result"; }
   std::string glb() const { return prefix + "glb"; }
   std::string obj() const { return prefix + "obj"; }
@@ -71,6 +75,17 @@ struct InputContents {
   template <class Archive>
   friend void fields(Archive& a, InputContents& c) {
     a(c.joints, c.clips, c.files);
+  }
+};
+
+/// A shape of an input's mesh and the pose it stands in.
+struct PosedShape {
+  std::vector<Vec3> shape;  ///< #V
+  Pose pose;                ///< one local transform a joint
+
+  template <class Archive>
+  friend void fields(Archive& a, PosedShape& s) {
+    a(s.shape, s.pose);
   }
 };
 

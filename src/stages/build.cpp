@@ -42,6 +42,31 @@ void add_file_import(const Recipe& recipe, std::size_t i, Engine& engine, const 
   engine.add(make_import_stage(names, std::move(parameters)));
 }
 
+// An input whose skin is made here. Examples of correctives go by the vertices of the base's file.
+void add_rigged_import(const Recipe& recipe, std::size_t i, Engine& engine, const ArtifactNames& names) {
+  const RecipeInput& input = recipe.inputs[i];
+  RigParameters parameters{input.name, *input.bind, {}};
+  std::size_t next = 0;
+  const auto add = [&](const RecipePath& path, RigRole role) {
+    for (const std::string& file : add_files(engine, names, input.name, path, next))
+      parameters.files.push_back({file, role});
+  };
+  with_context(recipe.place("/inputs/" + input.name), [&] {
+    add(input.file, RigRole::Model);
+    add(input.bind->skeleton, RigRole::Skeleton);
+    if (!input.bind->handles.text.empty()) add(input.bind->handles, RigRole::Labels);
+    for (const RecipePath& clips : input.clips) add(clips, RigRole::Poses);
+  });
+  if (input.name == recipe.base)
+    with_context(recipe.place("/correctives/examples"), [&] {
+      for (const RecipeExample& example : recipe.correctives.examples) {
+        add(example.shape, RigRole::ExampleShape);
+        add(example.pose, RigRole::ExamplePose);
+      }
+    });
+  engine.add(make_rig_stage(names, std::move(parameters)));
+}
+
 // A recipe used as an input: its own stages, then one that takes its result.
 bool add_recipe_import(const RecipeInput& input, Engine& engine, const Settle& settle,
                        const ArtifactNames& names) {
@@ -132,6 +157,8 @@ bool add_imports(const Recipe& recipe, Engine& engine, const Settle& settle, con
     bool is_added = true;
     if (input.recipe)
       is_added = add_recipe_import(input, engine, settle, names);
+    else if (input.bind)
+      add_rigged_import(recipe, i, engine, names);
     else
       add_file_import(recipe, i, engine, names);
     if (is_added) engine.add(make_pose_stage(names, input));
@@ -160,6 +187,7 @@ void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const A
     engine.add(make_motion_stage(names, recipe, s, sources[s]));
   for (const ClipRequest& clip : clips)
     engine.add(make_complete_clip_stage(names, recipe, sources.size(), clip));
+  if (recipe.correctives.method != RecipeDeform::None) engine.add(make_correct_stage(names, recipe, clips));
   engine.add(make_export_stage(names, recipe, clips));
   engine.add(make_validate_stage(names));
   if (level == ReportLevel::None) return;
@@ -186,6 +214,8 @@ std::vector<OutputFile> outputs(const Recipe& recipe, Engine& engine, ReportLeve
   std::vector<OutputFile> files;
   if (!recipe.output.glb.empty()) files.push_back({recipe.output.glb, names.glb()});
   if (!recipe.output.obj.empty()) files.push_back({recipe.output.obj, names.obj()});
+  if (recipe.correctives.method == RecipeDeform::Context)
+    files.push_back({recipe.name + "_driver.json", names.driver()});
   for (std::size_t k = 0; k < recipe.operations.size() && !recipe.output.vdb.empty(); ++k) {
     const std::filesystem::path vdb(recipe.output.vdb);
     const std::string name = k == 0 ? vdb.string()

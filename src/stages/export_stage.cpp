@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/version.h"
+#include "stages/corrective_bake.h"
 #include "stages/inputs.h"
 #include "stages/stages.h"
 
@@ -21,6 +22,11 @@ std::vector<MorphTracks> morphs_on_result(const std::vector<MorphTracks>& morphs
   return carried;
 }
 
+Bytes as_bytes(const std::string& text) {
+  const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+  return {begin, begin + text.size()};
+}
+
 /// The finished character and its files.
 class Export final : public Stage {
  public:
@@ -31,6 +37,7 @@ class Export final : public Stage {
         clips_(clips.begin(), clips.end()) {
     options_.max_influences = static_cast<std::size_t>(recipe.output.influences);
     wants_obj_ = !recipe.output.obj.empty();
+    is_corrected_ = recipe.correctives.method != RecipeDeform::None;
   }
 
   StageInfo info() const override {
@@ -40,6 +47,10 @@ class Export final : public Stage {
                                    {names_.textured(), names_.graft(), names_.surface()}),
                    .writes = {names_.result(), names_.glb(), names_.obj()}};
     for (const ClipRequest& clip : clips_) info.reads.push_back(names_.clip(clip.name));
+    if (is_corrected_) {
+      info.reads.push_back(names_.correctives());
+      info.writes.push_back(names_.driver());
+    }
     return info;
   }
   void add_to_key(Hasher& key) const override {
@@ -57,13 +68,16 @@ class Export final : public Stage {
       clip.morphs = morphs_on_result(clip.morphs, request.input, graft, surface);
       result.clips.push_back(std::move(clip));
     }
+    if (is_corrected_) {
+      const auto& correctives = in.get<BakedCorrectives>(names_.correctives());
+      add_correctives(result, correctives);
+      out.put(names_.driver(), as_bytes(correctives.driver_json));
+    }
     validate(result);
     GlbOptions options = options_;
     options.extras_json = provenance(in);
     out.put(names_.glb(), write_glb(result, options));
-    const std::string obj = wants_obj_ ? write_obj(result) : std::string();
-    const auto* begin = reinterpret_cast<const std::byte*>(obj.data());
-    out.put(names_.obj(), Bytes(begin, begin + obj.size()));
+    out.put(names_.obj(), as_bytes(wants_obj_ ? write_obj(result) : std::string()));
     out.put(names_.result(), std::move(result));
   }
 
@@ -85,6 +99,7 @@ class Export final : public Stage {
   std::vector<ClipRequest> clips_;
   GlbOptions options_;
   bool wants_obj_ = false;
+  bool is_corrected_ = false;
 };
 
 }  // namespace

@@ -26,6 +26,25 @@ std::vector<Origin> part_origins(const Graft& graft, const std::vector<const Cha
   return origins;
 }
 
+// In each part the targets of its input stand before those that were made here, which have no origin.
+std::vector<Origin> morph_origins(const Graft& graft, const std::vector<const Character*>& inputs,
+                                  const JoinedSurface& joined, const Character& result) {
+  std::vector<std::vector<Origin>> of_part(joined.mesh.parts.size());
+  for (std::size_t s = 0; s < graft.sources.size(); ++s) {
+    const std::size_t input = graft.sources[s].input;
+    for (std::size_t m = 0; m < inputs[input]->morphs.size(); ++m)
+      of_part[joined.first_part[s].index() + inputs[input]->morphs[m].part.index()].push_back(
+          {static_cast<int>(input), static_cast<int>(m), ""});
+  }
+  std::vector<std::size_t> taken(of_part.size(), 0);
+  std::vector<Origin> origins;
+  for (const MorphTarget& target : result.morphs) {
+    const std::size_t part = target.part.index(), next = taken[part]++;
+    origins.push_back(next < of_part[part].size() ? of_part[part][next] : Origin());
+  }
+  return origins;
+}
+
 }  // namespace
 
 ResultOrigins result_origins(const std::vector<const Character*>& inputs,
@@ -47,11 +66,7 @@ ResultOrigins result_origins(const std::vector<const Character*>& inputs,
     origins.images.push_back(
         find_origin(image, inputs, &Character::images,
                     [](const Image& a, const Image& b, std::size_t) { return a.bytes == b.bytes; }));
-  for (std::size_t s = 0; s < graft.sources.size(); ++s) {
-    const std::size_t input = graft.sources[s].input;
-    for (std::size_t m = 0; m < inputs[input]->morphs.size(); ++m)
-      origins.morphs.push_back({static_cast<int>(input), static_cast<int>(m), ""});
-  }
+  origins.morphs = morph_origins(graft, inputs, joined, result);
   origins.parts = part_origins(graft, inputs, joined);
   return origins;
 }

@@ -28,6 +28,20 @@ struct ImportParameters {
 };
 StagePointer make_import_stage(const ArtifactNames& names, ImportParameters parameters);
 
+/// file:* -> imported:<input>, contents, examples:<input>: an input whose skin is made here takes this in the
+/// place of the import stage.
+enum class RigRole : std::uint8_t { Model, Skeleton, Labels, Poses, ExampleShape, ExamplePose };
+struct RigFile {
+  std::string name;
+  RigRole role = RigRole::Model;
+};
+struct RigParameters {
+  std::string input;
+  RecipeBind bind;
+  std::vector<RigFile> files;  ///< in the order of file:*
+};
+StagePointer make_rig_stage(const ArtifactNames& names, RigParameters parameters);
+
 /// imported:<input> -> character:<input>: poses it before it is mixed (Sec. 4.1).
 StagePointer make_pose_stage(const ArtifactNames& names, const RecipeInput& input);
 
@@ -74,7 +88,11 @@ StagePointer make_complete_clip_stage(const ArtifactNames& names, const Recipe& 
 /// bound, surface, placed, shares, character:* -> textured, color_steps (Sec. 7.2 and beyond).
 StagePointer make_texture_stage(const ArtifactNames& names, const Recipe& recipe);
 
-/// textured, clip:*, contents:* -> result, glb, obj.
+/// textured, clip:*, examples:<base> -> correctives: morph targets and their tracks.
+StagePointer make_correct_stage(const ArtifactNames& names, const Recipe& recipe,
+                                std::span<const ClipRequest> clips);
+
+/// textured, clip:*, contents:*, correctives -> result, glb, obj, driver.
 StagePointer make_export_stage(const ArtifactNames& names, const Recipe& recipe,
                                std::span<const ClipRequest> clips);
 

@@ -95,11 +95,12 @@ TEST(RecipeSchema, EveryPropertyIsExplained) {
     const bool is_inherited =
         place.find("/ops/") != std::string::npos && place.find("/surface/") != std::string::npos;
     const bool is_side = place.find("/anyOf/") != std::string::npos;  // the default is of both together
-    const bool has_no_default = is_inherited || is_side || place.ends_with("/voxel") || place.ends_with("/radius");
+    const bool has_no_default =
+        is_inherited || is_side || place.ends_with("/voxel") || place.ends_with("/radius");
     EXPECT_TRUE(!(is_number || type == "boolean") || property.contains("default") || has_no_default);
   });
-  EXPECT_EQ(count, 63);  // 9 of the recipe, 4 + 2 of an input, 7 + 4 + 2 of an operation, twice 8 + 2 + 4 of its
-                         // surface, 3 and 4
+  EXPECT_EQ(count, 78);  // 10 of the recipe, 5 + 2 + 7 of an input, 7 + 4 + 2 of an operation, twice 8 + 2 +
+                         // 4 of its surface, 3, 4 + 2 and 4 of the rest
 }
 
 struct Case {
@@ -140,6 +141,14 @@ TEST(RecipeSchema, AgreesWithTheParser) {
            R"("recipe_version": 1, "name": "x", "base": "a", "inputs": {"a": {"file": "a.glb", "clips": ["c.fbx"],
                "pose": {"Head": {"rotate_deg": [1, 2, 3]}}}})"),
        true},
+      {"bind", head(R"("recipe_version": 1, "name": "x", "base": "a",
+               "inputs": {"a": {"file": "a.obj", "bind": {"skeleton": "a.tgf", "method": "heat", "resolution": 64}}})"),
+       true},
+      {"bind without skeleton", head(R"("recipe_version": 1, "name": "x", "base": "a",
+               "inputs": {"a": {"file": "a.obj", "bind": {"method": "heat"}}})")},
+      {"correctives", member(R"("correctives": {"method": "dqs", "targets": 4, "enough": 0})"), true},
+      {"correctives without method", member(R"("correctives": {"targets": 4})")},
+      {"no targets", member(R"("correctives": {"method": "dqs", "targets": 0})")},
       {"no version", head(R"("name": "x", "inputs": {"a": "a.glb"}, "base": "a")")},
       {"other version", head(R"("recipe_version": 2, "name": "x", "inputs": {"a": "a.glb"}, "base": "a")")},
       {"no name", head(R"("recipe_version": 1, "inputs": {"a": "a.glb"}, "base": "a")")},
@@ -211,13 +220,14 @@ TEST(RecipeSchema, AgreesWithTheParser) {
   }
 }
 
-// An object with the defaults that the schema states for its properties, those inside it too.
+// An object with the defaults that the schema states for its properties, those inside it too. What cannot
+// stand without a required key has no default.
 json stated_defaults(const json& object_schema) {
   json object = json::object();
   for (const auto& [name, property] : object_schema.at("properties").items()) {
     if (property.contains("default"))
       object[name] = property.at("default");
-    else if (property.contains("properties"))
+    else if (property.contains("properties") && !property.contains("required"))
       object[name] = stated_defaults(property);
   }
   return object;
