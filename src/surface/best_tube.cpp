@@ -146,15 +146,20 @@ std::optional<QuadPatch> best_tube(const TrianglePatch& patch, const TubeProblem
        is_half ? half_domains(fine, problem.loops, *mirror) : tube_domains(fine, problem.loops)) {
     std::string trouble;
     const auto tube = QuadTube::make(domain, trouble);
-    if (!tube)
+    if (!tube) {
       choice.note(trouble);
-    else if (is_half)
+      continue;
+    }
+    if (is_half)
       try_tables(*tube, unfolded_tube(*tube, domain.seams.size(), problem.surface, *mirror), 2, choice);
     else
       try_tables(*tube,
                  mirror ? symmetric_tube(*tube, problem.surface, *mirror) : any_tube(*tube, problem.surface),
                  borders, choice);
-    if (is_half ? choice.is_good() : choice.best().has_value()) break;
+    // A host's border against all others comes first; where that gives no tube, no other way did on any
+    // character here, and each costs as much again. Halves differ in the counts on the plane, and those
+    // matter.
+    if (!is_half || choice.is_good()) break;
   }
   if (!choice.best())
     fault = choice.fault().empty() ? "the counts of its borders do not meet" : choice.fault();

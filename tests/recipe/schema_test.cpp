@@ -95,7 +95,8 @@ TEST(RecipeSchema, EveryPropertyIsExplained) {
     const bool is_inherited =
         place.find("/ops/") != std::string::npos && place.find("/surface/") != std::string::npos;
     const bool is_side = place.find("/anyOf/") != std::string::npos;  // the default is of both together
-    const bool has_no_default = is_inherited || is_side || place.ends_with("/voxel") || place.ends_with("/radius");
+    const bool has_no_default =
+        is_inherited || is_side || place.ends_with("/voxel") || place.ends_with("/radius");
     EXPECT_TRUE(!(is_number || type == "boolean") || property.contains("default") || has_no_default);
   });
   EXPECT_EQ(count, 92);  // 10 of the recipe, 5 + 2 + 7 of an input, 7 + 4 + 2 of an operation, twice 8 + 2 + 4 of its
