@@ -70,7 +70,7 @@ FastestTurn fastest_turn_of(const Clip& clip, const ClipFrames& grid) {
 // Keys that move the skin by less than the tolerance go.
 void leave_out_keys(std::span<const Character* const> characters, const Graft& graft,
                     std::span<const MotionSet* const> motions, const std::vector<bool>& is_completed,
-                    const ClipFrames& keys, const CompletionOptions& options, Clip& clip) {
+                    const ClipFrames& keys, const CompletionOptions& options, bool is_loop, Clip& clip) {
   std::vector<double> times, radii;
   for (std::size_t k = 0; k < keys.count; ++k) times.push_back(keys.time(k));
   for (const JointOrigin& origin : graft.origins) {
@@ -79,7 +79,7 @@ void leave_out_keys(std::span<const Character* const> characters, const Graft& g
   }
   const GraftSource& base = graft.sources.front();
   const double diagonal = base.model_from_input.scale * characters[base.input]->mesh.diagonal();
-  reduce_keys(clip, graft.skeleton, is_completed, times, radii, options.key_tolerance * diagonal);
+  reduce_keys(clip, graft.skeleton, is_completed, times, radii, options.key_tolerance * diagonal, is_loop);
 }
 
 void complete_other_parts(std::span<const Character* const> characters, const Graft& graft,
@@ -98,7 +98,8 @@ void complete_other_parts(std::span<const Character* const> characters, const Gr
     result.record.cutting_frames += completed.cutting_frames;
   }
   if (!casting.parts.empty())
-    leave_out_keys(characters, graft, motions, is_completed, keys, options, result.clip);
+    leave_out_keys(characters, graft, motions, is_completed, keys, options, result.record.is_loop,
+                   result.clip);
 }
 
 }  // namespace
@@ -119,10 +120,10 @@ CompletedClip complete_clip(std::span<const Character* const> characters, const 
 
   for (const SourceId source : casting.driver.sources)
     copy_driving_tracks(source_clip, graft, source, result.clip.joints);
-  if (!casting.driver.sources.empty()) {
+  if (options.complete && !casting.driver.sources.empty()) {
     const MotionSet& set = *motions[casting.driver.sources.front().index()];
     result.record.is_loop = driver_frames(*characters[input], set, casting.driver, options).is_loop;
-    if (options.complete) complete_other_parts(characters, graft, motions, casting, options, result);
+    complete_other_parts(characters, graft, motions, casting, options, result);
   }
   std::sort(result.clip.joints.begin(), result.clip.joints.end(),
             [](const JointTracks& a, const JointTracks& b) { return a.joint < b.joint; });

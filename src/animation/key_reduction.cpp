@@ -57,15 +57,17 @@ bool passes(const Track<Value>& track, std::size_t from, std::size_t to, double 
   return true;
 }
 
-// From each key as far as it goes.
+// From each key as far as it goes. In a loop the keys beside its ends stay, too: what passes the seam has the
+// speed there that it had, while inside a clip a longer step may take its mean.
 template <class Segment, class Value>
-Track<Value> thinned(const Track<Value>& track, double tolerance) {
+Track<Value> thinned(const Track<Value>& track, double tolerance, bool is_loop) {
   if (track.times.size() < 3) return track;
+  const std::size_t last = track.times.size() - 1;
+  const auto stays = [&](std::size_t k) { return is_loop && (k == 1 || k == last - 1); };
   Track<Value> kept{track.interpolation, {track.times.front()}, {track.values.front()}};
-  for (std::size_t from = 0; from + 1 < track.times.size();) {
+  for (std::size_t from = 0; from < last;) {
     std::size_t to = from + 1;
-    while (to + 1 < track.times.size() && to - from < kLongest &&
-           passes<Segment>(track, from, to + 1, tolerance))
+    while (to < last && !stays(to) && to - from < kLongest && passes<Segment>(track, from, to + 1, tolerance))
       ++to;
     kept.times.push_back(track.times[to]);
     kept.values.push_back(track.values[to]);
@@ -149,7 +151,8 @@ void sample_into(const JointTracks& tracks, std::span<const double> times, std::
 }  // namespace
 
 void reduce_keys(Clip& clip, const Skeleton& skeleton, const std::vector<bool>& is_reducible,
-                 std::span<const double> times, std::span<const double> radii, double tolerance) {
+                 std::span<const double> times, std::span<const double> radii, double tolerance,
+                 bool is_loop) {
   if (tolerance <= 0 || times.size() < 3) return;
   std::vector<Pose> poses(times.size(), bind_pose(skeleton));
   for (const JointTracks& tracks : clip.joints) sample_into(tracks, times, poses);
@@ -163,8 +166,10 @@ void reduce_keys(Clip& clip, const Skeleton& skeleton, const std::vector<bool>& 
       if (!is_reducible[tracks.joint.index()]) continue;
       const double reach = std::max(reaches[tracks.joint.index()], tolerance), moves = share * tolerance;
       reduced.push_back(
-          {tracks.joint, thinned<Line>(tracks.translation, moves / scale_of_parent(skeleton, tracks.joint)),
-           thinned<Between>(tracks.rotation, moves / reach), thinned<Line>(tracks.scale, moves / reach)});
+          {tracks.joint,
+           thinned<Line>(tracks.translation, moves / scale_of_parent(skeleton, tracks.joint), is_loop),
+           thinned<Between>(tracks.rotation, moves / reach, is_loop),
+           thinned<Line>(tracks.scale, moves / reach, is_loop)});
       sample_into(reduced.back(), times, poses);
     }
     const double moved = largest_move(wanted, worlds_of(skeleton, poses), balls);

@@ -8,9 +8,11 @@
 namespace skinforge {
 namespace {
 
-constexpr double kSameTurn = 1e-5;    // radians; ours: below what a float quaternion resolves twice over
-constexpr double kSameLength = 1e-5;  // ours: of the value itself, as kSameTurn
-constexpr double kOnFrame = 1e-6;     // frames; rounding of a time over a step
+constexpr double kSameTurn = 1e-5;     // radians; ours: below what a float quaternion resolves twice over
+constexpr double kSameLength = 1e-5;   // ours: of the value itself, as kSameTurn
+constexpr std::size_t kSeamReach = 4;  // keys to either side of where a loop closes (ours)
+constexpr int kSeamRounds = 16;        // ours
+constexpr double kOnFrame = 1e-6;      // frames; rounding of a time over a step
 
 // The motion of one joint at a fractional search frame.
 Transform played(const PartMotion& motion, double frame, JointId joint) {
@@ -52,15 +54,46 @@ void align_signs(std::vector<Quat>& rotations) {
     if (rotations[k].dot(rotations[k - 1]) < 0) rotations[k].coeffs() *= -1;
 }
 
-// (1 2 1) / 4; the ends of what is no loop see themselves.
+// (1 2 1) / 4 of three rotations.
+Quat smoothed(const Quat& before, const Quat& here, const Quat& after) {
+  const auto beside = [&](const Quat& q) { return Vec4(q.dot(here) < 0 ? -q.coeffs() : q.coeffs()); };
+  return Quat(Vec4(beside(before) + 2 * here.coeffs() + beside(after))).normalized();
+}
+
+// The ends of what is no loop see themselves.
 void smooth_rotations(std::vector<Quat>& rotations, bool is_loop) {
   const std::vector<Quat> old = rotations;
   const std::size_t n = old.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const Quat& before = old[k > 0 ? k - 1 : (is_loop ? n - 1 : 0)];
-    const Quat& after = old[k + 1 < n ? k + 1 : (is_loop ? 0 : n - 1)];
-    const auto beside = [&](const Quat& q) { return Vec4(q.dot(old[k]) < 0 ? -q.coeffs() : q.coeffs()); };
-    rotations[k] = Quat(Vec4(beside(before) + 2 * old[k].coeffs() + beside(after))).normalized();
+  for (std::size_t k = 0; k < n; ++k)
+    rotations[k] = smoothed(old[k > 0 ? k - 1 : (is_loop ? n - 1 : 0)], old[k],
+                            old[k + 1 < n ? k + 1 : (is_loop ? 0 : n - 1)]);
+}
+
+// How much the turn from key to key changes at a key of a loop.
+double kink_at(const std::vector<Quat>& rotations, std::size_t k) {
+  const std::size_t n = rotations.size();
+  const Quat& here = rotations[k];
+  return (rotations[(k + n - 1) % n].conjugate() * here)
+      .angularDistance(here.conjugate() * rotations[(k + 1) % n]);
+}
+
+// Where a loop closes, its clip may change speed as nowhere inside, because its last pose nearly met its
+// first and no more. The keys around are smoothed by as much as that is too much; a number that moves with
+// all keys, so no last bit decides.
+void soften_seam(std::vector<Quat>& rotations) {
+  const std::size_t n = rotations.size();
+  if (n < 2 * kSeamReach + 3) return;
+  for (int round = 0; round < kSeamRounds; ++round) {
+    double inside = 0;
+    for (std::size_t k = 1; k + 1 < n; ++k) inside = std::max(inside, kink_at(rotations, k));
+    const double seam = std::max({kink_at(rotations, n - 1), kink_at(rotations, 0)});
+    if (seam <= inside) return;
+    const std::vector<Quat> old = rotations;
+    for (std::size_t i = n - kSeamReach; i <= n + kSeamReach; ++i) {
+      const std::size_t k = i % n;
+      rotations[k] = old[k].slerp(std::min(1.0, 2 * (1 - inside / seam)),
+                                  smoothed(old[(k + n - 1) % n], old[k], old[(k + 1) % n]));
+    }
   }
 }
 
@@ -77,6 +110,7 @@ JointTracks make_tracks(JointId joint, const Joint& result, std::span<const Tran
     smooth_rotations(rotations, motion.is_loop);
   else
     limit_turns(rotations, motion.set->fastest_turn * motion.keys.step(), motion.is_loop);
+  if (motion.is_loop) soften_seam(rotations);
   if (motion.is_loop) {
     translations.push_back(translations.front());
     rotations.push_back(rotations.front());

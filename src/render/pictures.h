@@ -33,9 +33,9 @@ Raster weights_picture(const Subject& subject, const SkinWeights& weights, std::
 
 /// One frame of a clip.
 struct ClipFrame {
-  double time = 0;              ///< seconds, written below the frame
-  std::vector<Vec3> positions;  ///< #V, metres, model space
-  std::vector<FaceId> marked;   ///< faces to tint, because something is wrong there; says "worst" below
+  double time = 0;                  ///< seconds, written below the frame
+  std::vector<Vec3> positions;      ///< #V, metres, model space
+  std::vector<FaceId> marked = {};  ///< faces to tint, because something is wrong there; says "worst" below
 };
 
 struct StripOptions {

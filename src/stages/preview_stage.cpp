@@ -133,9 +133,10 @@ class Preview final : public Stage {
     const MotionSet none;
     const std::vector<const MotionSet*> motions(graft.sources.size(), &none);
     for (const ClipRequest& request : clips_) {
-      Clip clip = complete_clip(characters, graft, motions, request.input, request.clip, request.name,
-                                {.rate_hz = 1, .complete = false})
-                      .clip;
+      CompletionOptions alone;
+      alone.complete = false;
+      Clip clip =
+          complete_clip(characters, graft, motions, request.input, request.clip, request.name, alone).clip;
       clip.morphs.clear();
       ClipReport r;
       r.name = request.name;

@@ -40,6 +40,9 @@ TEST(ReduceKeys, KeepsTheBend) {
   EXPECT_GE(keys_left(bent, 0.01), 4U);
   EXPECT_EQ(keys_left(bent, 0.2), 2U);
   EXPECT_EQ(keys_left(steady, 0), times.size());
+  Clip loop = steady;
+  reduce_keys(loop, skeleton, {true, true}, times, radii, 1e-6, true);
+  EXPECT_EQ(loop.joints[0].rotation.times, (std::vector<double>{times[0], times[1], times[9], times[10]}));
   reduce_keys(steady, skeleton, {false, true}, times, radii, 1);
   EXPECT_EQ(steady.joints[0].rotation.times.size(), times.size());  // not asked for
 }

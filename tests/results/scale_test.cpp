@@ -29,6 +29,8 @@ fs::path scaled_recipe(const std::string& name, double factor, const fs::path& f
   }
   for (json& operation : recipe.at("ops"))
     for (json& x : operation.at("place").at("offset")) x = x.get<double>() * factor;
+  // Whether a key is left out at a tolerance may hang on the last bit of the inputs.
+  recipe["animation"]["key_tolerance"] = 0;
   std::ofstream(folder / (name + ".json")) << recipe;
   return folder / (name + ".json");
 }
