@@ -40,25 +40,40 @@ struct Zip {
   std::vector<Triangle> triangles;
 };
 
+// What going on from the rung between a[i] and c[j] costs, #a x #c each: the same from every start.
+struct StepCosts {
+  std::vector<double> along_a, along_c;
+
+  StepCosts(const Ring& a, const Ring& c) {
+    const std::size_t n = a.size(), m = c.size();
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < m; ++j) {
+        const std::size_t after_i = (i + 1) % n, after_j = (j + 1) % m;
+        along_a.push_back(triangle_cost(a.positions[i], a.positions[after_i], c.positions[j],
+                                        a.outward[i] + a.outward[after_i] + c.outward[j]));
+        along_c.push_back(triangle_cost(a.positions[i], c.positions[after_j], c.positions[j],
+                                        a.outward[i] + c.outward[after_j] + c.outward[j]));
+      }
+  }
+};
+
 // Best zip whose first rung joins a[0] and c[start]; rungs (i, j) join a[i % n] and c[(start + j) % m].
-Zip zip_from(const Ring& a, const Ring& c, std::size_t start) {
-  const std::size_t n = a.size(), m = c.size(), width = m + 1;
+Zip zip_from(std::size_t n, std::size_t m, const StepCosts& step, std::size_t start) {
+  const std::size_t width = m + 1;
   std::vector<double> cost((n + 1) * width, std::numeric_limits<double>::infinity());
   std::vector<char> along_a(cost.size(), 0);
   cost[0] = 0;
   for (std::size_t i = 0; i <= n; ++i) {
     for (std::size_t j = 0; j <= m; ++j) {
       const double here = cost[i * width + j];
-      const std::size_t p = i % n, q = (start + j) % m, after_p = (i + 1) % n, after_q = (start + j + 1) % m;
+      const std::size_t rung = (i % n) * m + (start + j) % m;
       if (i < n) {
-        const double next = here + triangle_cost(a.positions[p], a.positions[after_p], c.positions[q],
-                                                 a.outward[p] + a.outward[after_p] + c.outward[q]);
+        const double next = here + step.along_a[rung];
         if (next < cost[(i + 1) * width + j])
           cost[(i + 1) * width + j] = next, along_a[(i + 1) * width + j] = 1;
       }
       if (j < m) {
-        const double next = here + triangle_cost(a.positions[p], c.positions[after_q], c.positions[q],
-                                                 a.outward[p] + c.outward[after_q] + c.outward[q]);
+        const double next = here + step.along_c[rung];
         if (next < cost[i * width + j + 1]) cost[i * width + j + 1] = next, along_a[i * width + j + 1] = 0;
       }
     }
@@ -95,11 +110,11 @@ std::vector<std::size_t> candidate_starts(const Vec3& a0, std::span<const Vec3> 
 std::vector<Triangle> zip_rings(std::span<const Vec3> a, std::span<const Vec3> c,
                                 const OutwardDirection& outward) {
   SF_EXPECT(a.size() >= 3 && c.size() >= 3);
-  const Ring first(a, outward), second(c, outward);
+  const StepCosts costs(Ring(a, outward), Ring(c, outward));
   Zip best;
   std::size_t best_start = 0;
   for (const std::size_t start : candidate_starts(a[0], c)) {
-    Zip zip = zip_from(first, second, start);
+    Zip zip = zip_from(a.size(), c.size(), costs, start);
     const bool is_equal = std::abs(zip.cost - best.cost) <= kSameCost * zip.cost;
     if (is_equal ? start < best_start : zip.cost < best.cost) best = std::move(zip), best_start = start;
   }
