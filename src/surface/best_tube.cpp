@@ -134,6 +134,15 @@ Maker unfolded_tube(const QuadTube& tube, std::size_t on_plane, const WantedSurf
           }};
 }
 
+void try_domain(const TubeDomain& domain, const std::function<Maker(const QuadTube&)>& maker,
+                std::size_t borders, Choice& choice) {
+  std::string trouble;
+  if (const auto tube = QuadTube::make(domain, trouble))
+    try_tables(*tube, maker(*tube), borders, choice);
+  else
+    choice.note(trouble);
+}
+
 }  // namespace
 
 std::optional<QuadPatch> best_tube(const TrianglePatch& patch, const TubeProblem& problem, std::string& fault,
@@ -141,25 +150,23 @@ std::optional<QuadPatch> best_tube(const TrianglePatch& patch, const TubeProblem
   Choice choice(problem);
   const TrianglePatch fine = remesh(patch, problem.surface.project, {.length_scale = kDomainScale});
   const std::size_t borders = problem.loops.size();
-  const bool is_half = mirror && borders > 2;
-  for (const TubeDomain& domain :
-       is_half ? half_domains(fine, problem.loops, *mirror) : tube_domains(fine, problem.loops)) {
-    std::string trouble;
-    const auto tube = QuadTube::make(domain, trouble);
-    if (!tube) {
-      choice.note(trouble);
-      continue;
-    }
-    if (is_half)
-      try_tables(*tube, unfolded_tube(*tube, domain.seams.size(), problem.surface, *mirror), 2, choice);
-    else
-      try_tables(*tube,
-                 mirror ? symmetric_tube(*tube, problem.surface, *mirror) : any_tube(*tube, problem.surface),
-                 borders, choice);
-    // A host's border against all others comes first; where that gives no tube, no other way did on any
-    // character here, and each costs as much again. Halves differ in the counts on the plane, and those
-    // matter.
-    if (!is_half || choice.is_good()) break;
+  if (mirror && borders > 2) {
+    // Halves differ in the counts on the plane, and those matter.
+    for (const TubeDomain& domain : half_domains(fine, problem.loops, *mirror))
+      if (!choice.is_good())
+        try_domain(
+            domain,
+            [&](const QuadTube& tube) {
+              return unfolded_tube(tube, domain.seams.size(), problem.surface, *mirror);
+            },
+            2, choice);
+  } else {
+    const auto maker = [&](const QuadTube& tube) {
+      return mirror ? symmetric_tube(tube, problem.surface, *mirror) : any_tube(tube, problem.surface);
+    };
+    if (const auto domain = tube_domain(fine, problem.loops)) try_domain(*domain, maker, borders, choice);
+    if (!choice.best())
+      if (const auto domain = even_domain(fine, problem.loops)) try_domain(*domain, maker, borders, choice);
   }
   if (!choice.best())
     fault = choice.fault().empty() ? "the counts of its borders do not meet" : choice.fault();

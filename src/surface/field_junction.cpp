@@ -169,9 +169,9 @@ std::optional<QuadPatch> FieldJunction::tube(const PatchPart& part, std::string&
                                              const PatchMirror* borders) const {
   std::vector<JunctionLoop> loops;
   for (const std::size_t l : part.loops) loops.push_back(loops_[l]);
-  const WantedSurface surface{
-      onto_field(field_.distance), [&](const Vec3& p) { return field_.distance.gradient(p); },
-      [&](const Vec3& p) { return std::abs(field_.distance.at(p)) / field_.voxel(); }};
+  const WantedSurface surface{onto_field(field_.distance),
+                              [&](const Vec3& p) { return field_.distance.gradient(p); },
+                              [&](const Vec3& p) { return field_.distance.at(p); }, field_.voxel()};
   return best_tube(part.patch, {loops, field_.distance, surface, kept_}, fault, borders);
 }
 

@@ -112,16 +112,18 @@ void make_symmetric(QuadPatch& patch, const PatchMirror& mirror) {
 }
 
 WantedSurface mirrored(const WantedSurface& surface, const MirrorPlane& plane) {
-  return {
-      [&surface, plane](const Vec3& p) {
-        if (plane.height(p) >= 0) return surface.project(p);
-        return plane.mirrored(surface.project(plane.mirrored(p)));
-      },
-      [&surface, plane](const Vec3& p) {
-        if (plane.height(p) >= 0) return surface.outward(p);
-        return plane.mirrored_direction(surface.outward(plane.mirrored(p)));
-      },
-      [&surface, plane](const Vec3& p) { return surface.off(plane.height(p) >= 0 ? p : plane.mirrored(p)); }};
+  return {[&surface, plane](const Vec3& p) {
+            if (plane.height(p) >= 0) return surface.project(p);
+            return plane.mirrored(surface.project(plane.mirrored(p)));
+          },
+          [&surface, plane](const Vec3& p) {
+            if (plane.height(p) >= 0) return surface.outward(p);
+            return plane.mirrored_direction(surface.outward(plane.mirrored(p)));
+          },
+          [&surface, plane](const Vec3& p) {
+            return surface.distance(plane.height(p) >= 0 ? p : plane.mirrored(p));
+          },
+          surface.voxel};
 }
 
 }  // namespace skinforge

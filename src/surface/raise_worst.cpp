@@ -30,7 +30,11 @@ constexpr double kDamping =
 class Search {
  public:
   Search(QuadPatch& patch, const WantedSurface& surface, const PatchMirror* mirror)
-      : patch_(patch), surface_(surface), mirror_(mirror), faces_(patch.positions.size()) {
+      : patch_(patch),
+        surface_(surface),
+        mirror_(mirror),
+        faces_(patch.positions.size()),
+        seen_(patch.quads.size() + patch.triangles.size()) {
     for (std::size_t f = 0; f < face_count(); ++f)
       for (const std::int32_t v : face(f)) faces_[v].push_back(f);
   }
@@ -42,9 +46,11 @@ class Search {
     for (const Pass& pass : kPasses) {
       pass_ = pass;
       double step = kFirstStep;
-      for (int round = 0; round < kRounds; ++round, step *= kShrink)
+      for (int round = 0; round < kRounds; ++round, step *= kShrink) {
+        look();
         for (std::size_t v = patch_.fixed; v < patch_.positions.size(); ++v)
           if (!faces_[v].empty() && is_leading(v)) descend(static_cast<std::int32_t>(v), step);
+      }
     }
   }
 
@@ -85,11 +91,13 @@ class Search {
                                      : (s.corners[1] - s.corners[0]).cross(s.corners[2] - s.corners[0]);
     return normal.dot(outward) < 0 ? std::min(jacobian, 0.0) - 1 : jacobian;
   }
-  // Outward directions at the faces around a vertex, before it is moved about: asking anew for each place
-  // tried costs four times as much and tells the same.
-  void ask_outward(std::int32_t v) {
-    outward_.clear();
-    for (const std::size_t f : faces_[v]) outward_.push_back(surface_.outward(shape(f).centre));
+  // The surface beneath each face, before its vertices are moved about. What it is like at the places tried
+  // is told from there: asking anew for each costs ten times as much.
+  void look() {
+    for (std::size_t f = 0; f < face_count(); ++f) {
+      const Vec3 centre = shape(f).centre;
+      seen_[f] = {centre, surface_.outward(centre), surface_.distance(centre)};
+    }
   }
 
   // In sum over the faces around. A cube weighs the worst most, and still gains from all; what is off the
@@ -98,7 +106,10 @@ class Search {
     double sum = 0;
     for (std::size_t k = 0; k < faces_[v].size(); ++k) {
       const Shape s = shape(faces_[v][k]);
-      const double bad = 1 - quality(s, outward_[k]), off = std::max(surface_.off(s.centre) - kOff, 0.0);
+      const Seen& seen = seen_[faces_[v][k]];
+      const double distance = seen.distance + seen.outward.dot(s.centre - seen.centre);
+      const double bad = 1 - quality(s, seen.outward),
+                   off = std::max(std::abs(distance) / surface_.voxel - kOff, 0.0);
       const double cube = bad * bad * bad;
       sum += (pass_.is_last ? cube * cube : cube) + pass_.rest * kOffWeight * off * off;
     }
@@ -144,7 +155,6 @@ class Search {
   void descend(std::int32_t v, double step) {
     const auto at = frame(v);
     if (!at) return;
-    ask_outward(v);
     const Vec3 start = patch_.positions[v];
     const double reach = step * at->length;
     const auto badness = [&](const Vec3& place) {
@@ -167,7 +177,11 @@ class Search {
   const PatchMirror* mirror_;
   std::vector<std::vector<std::size_t>> faces_;
   Pass pass_ = kPasses[0];
-  std::vector<Vec3> outward_;  // of the faces around the vertex at work
+  struct Seen {
+    Vec3 centre, outward;
+    double distance;
+  };
+  std::vector<Seen> seen_;  // of each face
 };
 
 }  // namespace

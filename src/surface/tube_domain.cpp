@@ -1,6 +1,7 @@
 #include "surface/tube_domain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,11 +22,17 @@ double length_of(const TrianglePatch& patch, const Path& path) {
   return length;
 }
 
-// Loops of a patch that become one border, joined by seams.
+// Which of a tube's two borders each loop belongs to.
+using Sides = std::vector<bool>;
+
+// Loops of a patch that become two borders, those of either side joined by seams.
 class Joining {
  public:
-  Joining(const TrianglePatch& patch, const std::vector<IndexLoop>& loops)
-      : patch_(patch), loop_of_vertex_(patch.positions.size(), -1), blocked_(patch.positions.size(), 0) {
+  Joining(const TrianglePatch& patch, const std::vector<IndexLoop>& loops, const Sides& is_on_b)
+      : patch_(patch),
+        is_on_b_(is_on_b),
+        loop_of_vertex_(patch.positions.size(), -1),
+        blocked_(patch.positions.size(), 0) {
     for (std::size_t l = 0; l < loops.size(); ++l)
       for (const std::int32_t v : loops[l]) loop_of_vertex_[v] = static_cast<std::int32_t>(l);
     group_.resize(loops.size());
@@ -43,11 +50,11 @@ class Joining {
     }
   }
 
-  // Shortest seams until all loops but `alone` are one; none when seams would touch each other or a border.
-  std::optional<std::vector<Path>> join_all_but(std::size_t alone) {
+  // Shortest seams until all loops of a side are one; none when seams would touch each other or a border.
+  std::optional<std::vector<Path>> join() {
     std::vector<Path> seams;
     for (std::size_t joined = 2; joined < group_.size(); ++joined) {
-      const Path seam = shortest_seam(alone);
+      const Path seam = shortest_seam();
       if (seam.empty()) return std::nullopt;
       for (const std::int32_t v : seam) blocked_[v] = 1;
       const std::int32_t from = group_[loop_of_vertex_[seam.front()]],
@@ -60,21 +67,24 @@ class Joining {
   }
 
  private:
-  Path shortest_seam(std::size_t alone) const {
+  Path shortest_seam() const {
     Path best;
     double least = std::numeric_limits<double>::infinity();
     std::set<std::int32_t> groups(group_.begin(), group_.end());
     for (const std::int32_t g : groups) {
-      if (g == group_[alone]) continue;
-      const Path path = shortest_from(g, alone);
+      const Path path = shortest_from(g);
       if (!path.empty() && length_of(patch_, path) < (1 - 1e-6) * least)
         best = path, least = length_of(patch_, path);
     }
     return best;
   }
 
-  // From the border vertices of a group to the nearest of another group, through free vertices (Dijkstra).
-  Path shortest_from(std::int32_t group, std::size_t alone) const {
+  // From the border vertices of a group to the nearest of another group of its side, through free vertices
+  // (Dijkstra).
+  Path shortest_from(std::int32_t group) const {
+    const auto is_beside = [&](std::int32_t loop) {
+      return is_on_b_[static_cast<std::size_t>(loop)] == is_on_b_[static_cast<std::size_t>(group)];
+    };
     std::vector<double> distance(patch_.positions.size(), std::numeric_limits<double>::infinity());
     std::vector<std::int32_t> before(patch_.positions.size(), -1);
     using Entry = std::pair<double, std::int32_t>;
@@ -95,7 +105,7 @@ class Joining {
       }
       for (const auto& [next, length] : neighbours_[v]) {
         const std::int32_t other = loop_of_vertex_[next];
-        const bool is_open = other < 0 || (group_[other] != group && group_[other] != group_[alone]);
+        const bool is_open = other < 0 || (group_[other] != group && is_beside(other));
         if (!is_open || blocked_[next] || d + length >= distance[next]) continue;
         distance[next] = d + length;
         before[next] = v;
@@ -106,10 +116,20 @@ class Joining {
   }
 
   const TrianglePatch& patch_;
-  std::vector<std::int32_t> loop_of_vertex_, group_;
-  std::vector<char> blocked_;  // on a seam
+  const Sides& is_on_b_;
+  std::vector<std::int32_t> loop_of_vertex_, group_;  // a group is named after one of its loops
+  std::vector<char> blocked_;                         // on a seam
   std::vector<std::vector<std::pair<std::int32_t, double>>> neighbours_;
 };
+
+// Per border vertex the loop that it belongs to.
+std::vector<std::int32_t> loops_of_vertices(std::size_t fixed, const std::vector<IndexLoop>& borders) {
+  std::vector<std::int32_t> loop_of_vertex(fixed, -1);
+  for (std::size_t l = 0; l < borders.size(); ++l)
+    for (const std::int32_t v : borders[l])
+      loop_of_vertex[static_cast<std::size_t>(v)] = static_cast<std::int32_t>(l);
+  return loop_of_vertex;
+}
 
 // Cuts a patch open along a path from border to border: what lies to its right gets vertices of its own, at
 // the same places. `original`: per vertex, what it was before any cut; grows.
@@ -187,16 +207,16 @@ TubeBorder border_of(const TubeDomain& domain, const IndexLoop& loop,
   return border;
 }
 
-// Mean edge and mean depth of the preserved row, over all loops but one.
+// Mean edge and mean depth of the preserved row, over the loops of a side.
 struct Pace {
   double edge = 0, depth = 0;
 };
 
-Pace pace_of_others(const std::vector<JunctionLoop>& loops, std::size_t alone) {
+Pace pace_of(const std::vector<JunctionLoop>& loops, const Sides& is_on_b, bool side) {
   Pace sum;
   double edges = 0;
   for (std::size_t l = 0; l < loops.size(); ++l) {
-    if (l == alone) continue;
+    if (is_on_b[l] != side) continue;
     const auto count = static_cast<double>(loops[l].positions.size());
     sum.edge += loop_length(loops[l].positions);
     sum.depth += count * row_depth(loops[l]);
@@ -217,30 +237,46 @@ Seam lay_seam(TubeDomain& domain, const TrianglePatch& patch, const Path& path, 
   return seam;
 }
 
-std::optional<TubeDomain> domain_against(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,
-                                         std::size_t alone) {
+std::optional<TubeDomain> domain_between(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,
+                                         const Sides& is_on_b) {
   const std::vector<IndexLoop> borders = lay_borders(loops).loops;
-  const auto paths = Joining(patch, borders).join_all_but(alone);
+  const auto paths = Joining(patch, borders, is_on_b).join();
   if (!paths) return std::nullopt;
   TubeDomain domain{patch, {}, {}, {}, patch.fixed};
   std::vector<std::int32_t> original(patch.positions.size());
   std::iota(original.begin(), original.end(), 0);
-  const Pace pace = pace_of_others(loops, alone);
+  const std::array<Pace, 2> pace = {pace_of(loops, is_on_b, false), pace_of(loops, is_on_b, true)};
+  const std::vector<std::int32_t> loop_of_vertex = loops_of_vertices(patch.fixed, borders);
   std::vector<Seam> seams;
   for (const Path& path : *paths) {
-    seams.push_back(lay_seam(domain, patch, path, pace.edge));
+    const bool side = is_on_b[static_cast<std::size_t>(loop_of_vertex[static_cast<std::size_t>(path[0])])];
+    seams.push_back(lay_seam(domain, patch, path, pace[side].edge));
     cut_open(domain.patch, path, original);
   }
   const auto boundary = boundary_loops(domain.patch.triangles);
   if (boundary.size() != 2) return std::nullopt;
+  const std::size_t first =
+      static_cast<std::size_t>(std::find(is_on_b.begin(), is_on_b.end(), false) - is_on_b.begin());
   const bool is_first =
-      std::find(boundary[0].begin(), boundary[0].end(), borders[alone][0]) != boundary[0].end();
+      std::find(boundary[0].begin(), boundary[0].end(), borders[first][0]) != boundary[0].end();
   domain.a = border_of(domain, boundary[is_first ? 0 : 1], original, seams);
   domain.b = border_of(domain, boundary[is_first ? 1 : 0], original, seams);
-  domain.a.depth = row_depth(loops[alone]);
-  domain.b.depth = pace.depth;
+  domain.a.depth = pace[0].depth;
+  domain.b.depth = pace[1].depth;
   turn_round(domain.b);
   return domain;
+}
+
+// All ways to lay more than three loops on two sides of two loops each at least, the first loop on A.
+std::vector<Sides> divisions(std::size_t loops) {
+  std::vector<Sides> all;
+  for (std::size_t bits = 1; loops > 3 && bits < (std::size_t{1} << (loops - 1)); ++bits) {
+    Sides is_on_b(loops, false);
+    for (std::size_t l = 1; l < loops; ++l) is_on_b[l] = (bits >> (l - 1)) & 1;
+    const auto on_b = static_cast<std::size_t>(std::count(is_on_b.begin(), is_on_b.end(), true));
+    if (on_b >= 2 && on_b + 2 <= loops) all.push_back(std::move(is_on_b));
+  }
+  return all;
 }
 
 }  // namespace
@@ -280,12 +316,21 @@ void turn_round(TubeBorder& border) {
             [](const TubeBorderPoint& p, const TubeBorderPoint& q) { return p.place < q.place; });
 }
 
-std::vector<TubeDomain> tube_domains(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops) {
-  std::vector<TubeDomain> domains;
-  const std::size_t ways = loops.size() == 2 ? 1 : loops.size();
-  for (std::size_t alone = 0; loops.size() >= 2 && alone < ways; ++alone)
-    if (auto domain = domain_against(patch, loops, alone)) domains.push_back(*std::move(domain));
-  return domains;
+std::optional<TubeDomain> tube_domain(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops) {
+  Sides is_on_b(loops.size(), true);
+  is_on_b[0] = false;
+  return domain_between(patch, loops, is_on_b);
+}
+
+std::optional<TubeDomain> even_domain(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops) {
+  std::optional<TubeDomain> best;
+  const auto difference = [](const TubeDomain& d) {
+    return std::max(d.a.points.size(), d.b.points.size()) - std::min(d.a.points.size(), d.b.points.size());
+  };
+  for (const Sides& is_on_b : divisions(loops.size()))
+    if (auto domain = domain_between(patch, loops, is_on_b))
+      if (!best || difference(*domain) < difference(*best)) best = std::move(domain);
+  return best;
 }
 
 }  // namespace skinforge

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "surface/borders.h"
@@ -29,10 +30,13 @@ struct TubeDomain {
   std::size_t fixed = 0;    ///< border vertices of the whole
 };
 
-/// Ways to see a patch between `loops` (its fixed vertices, loop after loop) as a tube: one way for two
-/// loops; for more, each loop against all others joined by the shortest seams. Without those whose seams
-/// would touch.
-std::vector<TubeDomain> tube_domains(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops);
+/// A patch between `loops` (its fixed vertices, loop after loop) as a tube: the first loop against all
+/// others, these joined by the shortest seams. None when seams would touch.
+std::optional<TubeDomain> tube_domain(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops);
+
+/// The same with two loops or more on either side, of all ways the one whose borders differ least in their
+/// counts: a body between four limbs and a neck. None for less than four loops.
+std::optional<TubeDomain> even_domain(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops);
 
 /// Depth of the first preserved row behind a border, so that rows go on at the same pace; near the border's
 /// own edges where that row is much deeper or flatter than they are. Metres.
