@@ -20,6 +20,13 @@ double flatness(double angle) {
   return squared(std::max(0.0, angle - kCorner) / kCorner);
 }
 
+// How sharply the border turns in at a vertex that a column ends at: 0 where either side keeps 45 degrees, 1
+// where nothing is left.
+double sharpness(double angle) {
+  constexpr double kCorner = std::numbers::pi / 2;
+  return squared(std::max(0.0, kCorner - angle) / kCorner);
+}
+
 int around(int i, int n) {
   return ((i % n) + n) % n;
 }
@@ -71,7 +78,9 @@ double TubePaths::stack_b(int i, int j, int depth) const {
 }
 
 void TubePaths::offer(int i, int j, int t, int since, double cost, TubeOp op, int since_before) {
-  const double total = cost + skew(i, j);
+  const double sharp = sharpness(a_.angle[static_cast<std::size_t>(around(stretch_.first_a + i, n_))]) +
+                       sharpness(b_.angle[static_cast<std::size_t>(around(stretch_.first_b + j, m_))]);
+  const double total = cost + skew(i, j) + options_.notch_cost * sharp;
   State& state = states_[name(i, j, t, since)];
   if (total < state.cost) state = {total, op, since_before};
 }

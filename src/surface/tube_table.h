@@ -45,15 +45,17 @@ struct TubeOptions {
   double stack_cost = 10;    ///< lambda of junction.md b.2: few deep stacks rather than many diamonds
   double triangle_cost = 4;  ///< lambda_t
   double corner_cost = 4;    ///< mu; ours: stacks go where the border turns in
+  double notch_cost = 60;    ///< ours: no column ends where the border turns in sharply
   int deepest = 4;           ///< diamonds above each other; also at most `rows` - 2
   int start_reach = 3;       ///< vertices of B to either side of where A begins
 };
 
 /// The cheapest columns that use every edge of both sides once, by dynamic programming over (edges of A,
 /// edges of B, triangles, matches since the last stack), for every start in reach. Cost: squared differences
-/// of theta at the ends of columns, in mean spacings, plus that of each stack and triangle. Stacks keep two
-/// matches apart, fewer where that is not possible. Without triangles when #a + #b is even, with one when
-/// odd. None when the counts differ by more than the rows can take. O(starts * #a * #b * deepest).
+/// of theta at the ends of columns, in mean spacings, plus that of each stack, triangle and sharp notch.
+/// Stacks keep two matches apart, fewer where that is not possible. Without triangles when #a + #b is even,
+/// with one when odd. None when the counts differ by more than the rows can take. O(starts * #a * #b *
+/// deepest).
 std::optional<TubeTable> solve_tube(const TubeSide& a, const TubeSide& b, int rows,
                                     const TubeOptions& options = {});
 
