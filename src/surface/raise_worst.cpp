@@ -12,8 +12,9 @@ namespace {
 
 // What counts beside the lack of quality (ours): voxels off the surface, beyond the first; the squared
 // distance from the middle of the neighbours, in edges; and badness that hardly changes, at which a vertex
-// stays.
-constexpr double kOff = 0.5, kOffWeight = 0.2, kEvenWeight = 0.2, kFlat = 1e-3;
+// stays. And what a unit normal and the field's gradient lack to that product.
+constexpr double kOff = 0.5, kOffWeight = 0.2, kEvenWeight = 0.2, kFlat = 1e-3, kFacing = 0.2,
+                 kFacingWeight = 4;
 
 // Two passes (ours): first all faces gain, then the worst above all and the rest counts little.
 struct Pass {
@@ -34,6 +35,7 @@ class Search {
         surface_(surface),
         mirror_(mirror),
         faces_(patch.positions.size()),
+        facing_weight_(std::isfinite(surface.voxel) ? kFacingWeight : 0),
         seen_(patch.quads.size() + patch.triangles.size()) {
     for (std::size_t f = 0; f < face_count(); ++f)
       for (const std::int32_t v : face(f)) faces_[v].push_back(f);
@@ -85,11 +87,15 @@ class Search {
     return s;
   }
 
-  static double quality(const Shape& s, const Vec3& outward) {
+  static Vec3 unit_normal(const Shape& s) {
+    const auto& c = s.corners;
+    const Vec3 normal = s.count == 4 ? (c[2] - c[0]).cross(c[3] - c[1]) : (c[1] - c[0]).cross(c[2] - c[0]);
+    return normal.norm() > 0 ? Vec3(normal.normalized()) : normal;
+  }
+  // `facing`: of the unit normal and the way outward.
+  static double quality(const Shape& s, double facing) {
     const double jacobian = scaled_jacobian(std::span(s.corners).first(s.count));
-    const Vec3 normal = s.count == 4 ? (s.corners[2] - s.corners[0]).cross(s.corners[3] - s.corners[1])
-                                     : (s.corners[1] - s.corners[0]).cross(s.corners[2] - s.corners[0]);
-    return normal.dot(outward) < 0 ? std::min(jacobian, 0.0) - 1 : jacobian;
+    return facing < 0 ? std::min(jacobian, 0.0) - 1 : jacobian;
   }
   // The surface beneath each face, before its vertices are moved about. What it is like at the places tried
   // is told from there: asking anew for each costs ten times as much.
@@ -101,17 +107,20 @@ class Search {
   }
 
   // In sum over the faces around. A cube weighs the worst most, and still gains from all; what is off the
-  // surface by more than the gate allows for most faces counts, too (ours).
+  // surface by more than the gate allows for most faces counts, too, and what all but turns away from it, as
+  // faces do that span a thin part, where the field in their middle is flat (ours).
   double badness_around(std::int32_t v) const {
     double sum = 0;
-    for (std::size_t k = 0; k < faces_[v].size(); ++k) {
-      const Shape s = shape(faces_[v][k]);
-      const Seen& seen = seen_[faces_[v][k]];
+    for (const std::size_t f : faces_[v]) {
+      const Shape s = shape(f);
+      const Seen& seen = seen_[f];
+      const double facing = unit_normal(s).dot(seen.outward), away = std::max(kFacing - facing, 0.0);
       const double distance = seen.distance + seen.outward.dot(s.centre - seen.centre);
-      const double bad = 1 - quality(s, seen.outward),
+      const double bad = 1 - quality(s, facing),
                    off = std::max(std::abs(distance) / surface_.voxel - kOff, 0.0);
       const double cube = bad * bad * bad;
-      sum += (pass_.is_last ? cube * cube : cube) + pass_.rest * kOffWeight * off * off;
+      sum += (pass_.is_last ? cube * cube : cube) + pass_.rest * kOffWeight * off * off +
+             facing_weight_ * away * away;
     }
     return sum;
   }
@@ -176,6 +185,7 @@ class Search {
   const WantedSurface& surface_;
   const PatchMirror* mirror_;
   std::vector<std::vector<std::size_t>> faces_;
+  double facing_weight_;  // 0 where the way outward is a guess
   Pass pass_ = kPasses[0];
   struct Seen {
     Vec3 centre, outward;
