@@ -81,7 +81,7 @@ constexpr int kMoreRows[] = {0, 1, -1, 2, 3, 4};
 
 // Where the first table gives faces as bad as this, other rows do not mend them (ours: a least scaled
 // Jacobian).
-constexpr double kHopeless = -0.45;
+constexpr double kHopeless = -0.3;
 
 // How a tube gets its tables, and how one is made of them.
 struct Maker {
@@ -89,8 +89,13 @@ struct Maker {
   std::function<std::optional<QuadPatch>(const TubeTable&, int rows, bool is_polished)> made;
 };
 
+// Tables tried among seams once one has passed: more gained 0.03 in least scaled Jacobian and took a second
+// (ours).
+constexpr int kMoreAmongSeams = 2;
+
 void try_tables(const QuadTube& tube, const Maker& maker, std::size_t borders, Choice& choice) {
   std::vector<std::pair<int, TubeTable>> tried;
+  int since_best = 0;
   for (const TubeOptions& options : options_for(borders))
     for (const int more : kMoreRows) {
       const int rows = tube.wanted_rows() + more;
@@ -105,6 +110,7 @@ void try_tables(const QuadTube& tube, const Maker& maker, std::size_t borders, C
         if (choice.is_good()) return;
       }
       if (tried.empty() && least < kHopeless) return;
+      if (borders > 2 && choice.best() && since_best++ == kMoreAmongSeams) return;
       tried.emplace_back(rows, *table);
     }
 }

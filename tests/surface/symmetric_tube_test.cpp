@@ -131,9 +131,9 @@ TEST_P(SymmetricTube, DeviationIsExactlyZero) {
   const PatchMirror borders = borders_of(wall);
   ASSERT_EQ(borders.image.size(), wall.domain.fixed);
   std::string fault;
-  const std::vector<TubeDomain> domains = tube_domains(wall.domain, wall.loops);
-  ASSERT_EQ(domains.size(), 1u);
-  const auto tube = QuadTube::make(domains[0], fault);
+  const auto domain = tube_domain(wall.domain, wall.loops);
+  ASSERT_TRUE(domain);
+  const auto tube = QuadTube::make(*domain, fault);
   ASSERT_TRUE(tube) << fault;
   const auto table = tube->symmetric_table(tube->wanted_rows(), {}, borders);
   ASSERT_TRUE(table);

@@ -69,33 +69,50 @@ std::multiset<std::size_t> loop_sizes(const TrianglePatch& patch) {
 
 TEST(TubeDomains, TwoLoopsNeedNoSeam) {
   const Board board(12, 10, {{5, 4, 2, 2}});
-  const auto domains = tube_domains(board.patch, board.loops);
-  ASSERT_EQ(domains.size(), 1u);
-  EXPECT_TRUE(domains[0].seams.empty());
-  EXPECT_EQ(domains[0].a.points.size(), 44u);
-  EXPECT_EQ(domains[0].b.points.size(), 8u);
+  const auto domain = tube_domain(board.patch, board.loops);
+  ASSERT_TRUE(domain);
+  EXPECT_TRUE(domain->seams.empty());
+  EXPECT_EQ(domain->a.points.size(), 44u);
+  EXPECT_EQ(domain->b.points.size(), 8u);
 }
 
 // By hand: the holes are 4 apart, so joined they have 8 + 8 + 2 * 4 edges, and 3 new vertices between them.
 TEST(TubeDomains, ASeamJoinsTwoHoles) {
   const Board board(16, 10, {{4, 4, 2, 2}, {10, 4, 2, 2}});
   ASSERT_EQ(board.loops.size(), 3u);
-  const auto domains = tube_domains(board.patch, board.loops);
-  ASSERT_EQ(domains.size(), 3u);
-  const TubeDomain& outside = domains[0];  // the outer border, the lowest vertex, against the two holes
-  EXPECT_EQ(outside.a.points.size(), 52u);
-  EXPECT_EQ(outside.b.points.size(), 8u + 8 + 2 * 4);
-  ASSERT_EQ(outside.seams.size(), 3u);
-  for (const Vec3& p : outside.seams) EXPECT_NEAR(p.x() - std::round(p.x()), 0, 1e-12);
-  EXPECT_EQ(loop_sizes(outside.patch), (std::multiset<std::size_t>{24, 52}));
+  const auto outside = tube_domain(board.patch, board.loops);  // the outer border against the two holes
+  ASSERT_TRUE(outside);
+  EXPECT_EQ(outside->a.points.size(), 52u);
+  EXPECT_EQ(outside->b.points.size(), 8u + 8 + 2 * 4);
+  ASSERT_EQ(outside->seams.size(), 3u);
+  for (const Vec3& p : outside->seams) EXPECT_NEAR(p.x() - std::round(p.x()), 0, 1e-12);
+  EXPECT_EQ(loop_sizes(outside->patch), (std::multiset<std::size_t>{24, 52}));
+  EXPECT_FALSE(even_domain(board.patch, board.loops));  // three loops have no two sides of two
 }
 
-// Law: whichever border stands alone, the quads close on all three borders as they were.
+// By hand: of a square frame's four holes in a row the ends and the middles are no pairs that stand as even
+// as the frame of 24 with the nearest hole (24 + 4 + 2 * 1) against the other two (4 + 4 + 2 * 2).
+TEST(TubeDomains, FourLoopsStandTwoByTwo) {
+  const Board board(9, 3, {{1, 1, 1, 1}, {4, 1, 1, 1}, {7, 1, 1, 1}});
+  ASSERT_EQ(board.loops.size(), 4u);
+  const auto domain = even_domain(board.patch, board.loops);
+  ASSERT_TRUE(domain);
+  EXPECT_EQ(domain->a.points.size(), 24u + 4 + 2 * 1);
+  EXPECT_EQ(domain->b.points.size(), 4u + 4 + 2 * 2);
+}
+
+// Law: whichever borders stand together, the quads close on all of them as they were.
 TEST(TubeDomains, TubesWithSeamsAreWatertight) {
-  const Board board(16, 10, {{4, 4, 2, 2}, {10, 4, 2, 2}});
-  for (const TubeDomain& domain : tube_domains(board.patch, board.loops)) {
+  const Board two(16, 10, {{4, 4, 2, 2}, {10, 4, 2, 2}}),
+      three(22, 10, {{4, 4, 2, 2}, {10, 4, 2, 2}, {16, 4, 2, 2}});
+  for (const auto& [board, domain, holes] : {std::tuple(&two, tube_domain(two.patch, two.loops), 2),
+                                             std::tuple(&three, tube_domain(three.patch, three.loops), 3),
+                                             std::tuple(&three, even_domain(three.patch, three.loops), 3)}) {
+    ASSERT_TRUE(domain);
+    std::multiset<std::size_t> borders = {holes == 2 ? 52u : 64u};
+    for (int k = 0; k < holes; ++k) borders.insert(8);
     std::string fault;
-    const auto tube = QuadTube::make(domain, fault);
+    const auto tube = QuadTube::make(*domain, fault);
     ASSERT_TRUE(tube) << fault;
     const auto table = tube->table(tube->wanted_rows(), {});
     ASSERT_TRUE(table);
@@ -103,10 +120,10 @@ TEST(TubeDomains, TubesWithSeamsAreWatertight) {
     EXPECT_TRUE(quads.triangles.empty());
     const TrianglePatch halves = halved(quads);
     for (const auto& [edge, uses] : testing::half_edge_uses(halves.triangles)) EXPECT_EQ(uses, 1);
-    EXPECT_EQ(loop_sizes(halves), (std::multiset<std::size_t>{8, 8, 52}));
-    EXPECT_EQ(testing::topology_of(halves).euler, -1);
+    EXPECT_EQ(loop_sizes(halves), borders);
+    EXPECT_EQ(testing::topology_of(halves).euler, 1 - holes);
     EXPECT_EQ(testing::topology_of(halves).non_manifold_vertices, 0u);
-    for (std::size_t v = 0; v < quads.fixed; ++v) EXPECT_EQ(quads.positions[v], board.patch.positions[v]);
+    for (std::size_t v = 0; v < quads.fixed; ++v) EXPECT_EQ(quads.positions[v], board->patch.positions[v]);
   }
 }
 

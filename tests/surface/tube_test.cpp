@@ -48,6 +48,22 @@ TEST(SolveTube, AStackGoesWhereTheBorderTurnsIn) {
     }
 }
 
+// The same counts, but between edges that all but meet at vertex 5 no column ends: one quad takes both, and B
+// gives up two edges, too.
+TEST(SolveTube, NoColumnEndsInASharpNotch) {
+  TubeSide a = even_side(12);
+  a.angle[5] = kStraight / 18;
+  const auto table = solve_tube(a, even_side(12), 4);
+  ASSERT_TRUE(table);
+  EXPECT_EQ(count_of(*table, TubeOpKind::StackB), 1);
+  ASSERT_EQ(count_of(*table, TubeOpKind::StackA), 1);
+  for (const TubeOp& op : table->ops) {
+    if (op.kind == TubeOpKind::StackA) {
+      EXPECT_EQ(op.middle, 5);
+    }
+  }
+}
+
 TEST(SolveTube, NoRowsForAStack) {
   EXPECT_FALSE(solve_tube(even_side(14), even_side(12), 2));
   EXPECT_TRUE(solve_tube(even_side(12), even_side(12), 2));
@@ -126,9 +142,9 @@ TEST(TubeChart, ADiscIsNoTube) {
 // The tube of the rows it asks for.
 void make_tube(const Wall& wall, QuadPatch& tube) {
   std::string fault;
-  const std::vector<TubeDomain> domains = tube_domains(wall.domain, wall.loops);
-  ASSERT_EQ(domains.size(), 1u);
-  const auto tubes = QuadTube::make(domains[0], fault);
+  const auto domain = tube_domain(wall.domain, wall.loops);
+  ASSERT_TRUE(domain);
+  const auto tubes = QuadTube::make(*domain, fault);
   ASSERT_TRUE(tubes) << fault;
   const auto table = tubes->table(tubes->wanted_rows(), {});
   ASSERT_TRUE(table);
