@@ -7,6 +7,8 @@ Builds the recipes into a temporary folder and lays views of their pictures side
 hand, so that no package is needed: 8 bits a channel, RGB or RGBA, not interlaced, as the program writes them.
 """
 
+import json
+import os
 import struct
 import subprocess
 import sys
@@ -88,14 +90,25 @@ def side_by_side(pictures):
     return [(b"\xff" * 3 * GAP).join(lines) for lines in zip(*pictures)]
 
 
+def with_elements(recipe, elements, folder):
+    """A recipe of the repository whose junctions are made of these, to be read from that folder."""
+    content = json.loads((ROOT / f"recipes/{recipe}.json").read_text())
+    for name, file in content["inputs"].items():
+        content["inputs"][name] = os.path.relpath(ROOT / "recipes" / file, folder)
+    content.setdefault("surface", {})["elements"] = elements
+    return content
+
+
 def main():
     program = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/release/skinforge")
     with tempfile.TemporaryDirectory() as scratch:
-        def picture(recipe, name):
-            out = Path(scratch) / recipe
+        def picture(recipe, name, elements="auto"):
+            out = Path(scratch) / f"{recipe}_{elements}"
             if not out.exists():
+                file = Path(scratch) / f"{recipe}_{elements}.json"
+                file.write_text(json.dumps(with_elements(recipe, elements, scratch)))
                 subprocess.run([program, "build", "--quiet", "--cache", scratch + "/cache", "--out", str(out),
-                                str(ROOT / f"recipes/{recipe}.json")], check=True)
+                                str(file)], check=True)
             return read_png(out / f"pictures/{name}.png")
 
         target = ROOT / "data/pictures"
@@ -106,6 +119,10 @@ def main():
         shown = [("centaur", 0), ("centaur", 1), ("tail", 0), ("four_armed", 0)]
         write_png(target / "junctions.png",
                   side_by_side([halved(view(picture(recipe, "junction1"), k)) for recipe, k in shown]))
+        shown = [("winged_horse", 0), ("composite", 0)]
+        write_png(target / "triangles_and_quads.png",
+                  side_by_side([halved(view(picture(recipe, "junction1", elements), k)) for recipe, k in shown
+                                for elements in ("triangles", "auto")]))
 
 
 if __name__ == "__main__":
