@@ -83,6 +83,7 @@ struct Worlds {
 // Where all joints are at all times, with the tracks that may lose keys taken from `reduced`.
 Worlds worlds_of(const Skeleton& skeleton, const std::vector<Pose>& poses) {
   Worlds worlds;
+  worlds.joints.reserve(poses.size() * skeleton.size());
   for (const Pose& pose : poses)
     for (std::size_t j = 0; j < skeleton.size(); ++j) {
       const JointId parent = skeleton.joints[j].parent;

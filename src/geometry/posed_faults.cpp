@@ -23,6 +23,18 @@ Box3 box_of(std::span<const Vec3> positions, const TriangleCornerIds& t) {
   return box;
 }
 
+// Flags of the triangles that are not of the part with most of them: each pair in question has one such.
+std::vector<std::uint8_t> all_but_the_largest(std::span<const std::int32_t> parts) {
+  std::map<std::int32_t, std::size_t> counts;
+  for (const std::int32_t part : parts)
+    if (part >= 0) ++counts[part];
+  const auto largest = std::max_element(counts.begin(), counts.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::vector<std::uint8_t> flags;
+  for (const std::int32_t part : parts) flags.push_back(counts.empty() || part != largest->first);
+  return flags;
+}
+
 // Boxes round the triangles of each part.
 std::map<std::int32_t, Box3> part_boxes(std::span<const Vec3> positions,
                                         std::span<const TriangleCornerIds> triangles,
@@ -38,10 +50,15 @@ PosedSurface::PosedSurface(std::span<const Vec3> rest, std::span<const TriangleC
                            std::span<const std::int32_t> parts)
     : triangles_(triangles), parts_(parts) {
   SF_EXPECT(parts.size() == triangles.size());
+  std::vector<bool> is_new(rest.size(), false);  // vertices of new surface
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const std::int32_t v : triangles[t])
+      if (parts[t] < 0) is_new[static_cast<std::size_t>(v)] = true;
   std::map<std::array<std::int32_t, 2>, std::vector<std::int32_t>> sides;
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (int i = 0; i < 3; ++i) {
       const std::int32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
+      if (!is_new[static_cast<std::size_t>(a)] || !is_new[static_cast<std::size_t>(b)]) continue;
       sides[{std::min(a, b), std::max(a, b)}].push_back(static_cast<std::int32_t>(t));
     }
   double sum = 0;
@@ -75,12 +92,11 @@ std::vector<PosedSurface::Pair> PosedSurface::cuts(std::span<const Vec3> positio
     if (meets) near.push_back(static_cast<std::int32_t>(t));
   }
   std::vector<TriangleCornerIds> triangles;
-  for (const std::int32_t t : near) triangles.push_back(triangles_[t]);
+  std::vector<std::int32_t> parts;
+  for (const std::int32_t t : near) triangles.push_back(triangles_[t]), parts.push_back(parts_[t]);
   std::vector<Pair> found;
-  for (const auto& [a, b] : self_intersections(positions, triangles)) {
-    const std::int32_t first = near[a], second = near[b];
-    if (parts_[first] != parts_[second] || parts_[first] < 0) found.emplace_back(first, second);
-  }
+  for (const auto& [a, b] : self_intersections(positions, triangles, {all_but_the_largest(parts), parts}))
+    found.emplace_back(near[a], near[b]);
   return found;
 }
 

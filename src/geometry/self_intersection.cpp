@@ -90,11 +90,17 @@ bool triangles_intersect(std::span<const Vec3> positions, const Corners& a, cons
 
 std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(std::span<const Vec3> positions,
                                                                       std::span<const Corners> triangles,
-                                                                      std::span<const std::uint8_t> subset) {
-  SF_EXPECT(subset.empty() || subset.size() == triangles.size());
+                                                                      const PairScope& scope) {
+  SF_EXPECT(scope.subset.empty() || scope.subset.size() == triangles.size());
+  SF_EXPECT(scope.groups.empty() || scope.groups.size() == triangles.size());
   const double tolerance = tolerance_of(positions);
   const TriangleBvh bvh(positions, triangles);
-  const auto is_asked = [&](std::int32_t t) { return subset.empty() || subset[static_cast<std::size_t>(t)]; };
+  const auto is_asked = [&](std::int32_t t) {
+    return scope.subset.empty() || scope.subset[static_cast<std::size_t>(t)];
+  };
+  const auto are_one_group = [&](std::int32_t s, std::int32_t t) {
+    return !scope.groups.empty() && scope.groups[s] >= 0 && scope.groups[s] == scope.groups[t];
+  };
   std::vector<std::vector<std::int32_t>> partners(triangles.size());
   parallel_chunks(triangles.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -104,6 +110,7 @@ std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(std::span<
       for (const std::int32_t v : triangles[i]) box.extend(positions[v]);
       for (const std::int32_t other : bvh.overlapping(box.min(), box.max())) {
         if (other == id || (other < id && is_asked(other))) continue;  // the other one finds this pair
+        if (are_one_group(id, other)) continue;
         if (triangles_intersect(positions, triangles[i], triangles[other], tolerance))
           partners[i].push_back(other);
       }
@@ -118,8 +125,8 @@ std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(std::span<
 }
 
 std::size_t count_self_intersections(std::span<const Vec3> positions, std::span<const Corners> triangles,
-                                     std::span<const std::uint8_t> subset) {
-  return self_intersections(positions, triangles, subset).size();
+                                     const PairScope& scope) {
+  return self_intersections(positions, triangles, scope).size();
 }
 
 }  // namespace skinforge

@@ -18,16 +18,22 @@ namespace skinforge {
 bool triangles_intersect(std::span<const Vec3> positions, const std::array<std::int32_t, 3>& a,
                          const std::array<std::int32_t, 3>& b, double tolerance);
 
-/// Pairs (lower, higher) of triangles that intersect, rising. At least one of each pair has its `subset` flag
-/// set; an empty subset means all. The tolerance is 1e-9 of the diagonal of the positions. O(n log n) for
-/// surfaces that cut themselves in few places. Same result for any number of threads.
+/// Which pairs of triangles count. Empty spans leave nothing out.
+struct PairScope {
+  std::span<const std::uint8_t> subset = {};  ///< one of the pair has its flag set
+  std::span<const std::int32_t> groups = {};  ///< the two are not of one group, or it is below 0
+};
+
+/// Pairs (lower, higher) of triangles that intersect, rising. The tolerance is 1e-9 of the diagonal of the
+/// positions. O(n log n) for surfaces that cut themselves in few places. Same result for any number of
+/// threads.
 std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(
     std::span<const Vec3> positions, std::span<const std::array<std::int32_t, 3>> triangles,
-    std::span<const std::uint8_t> subset = {});
+    const PairScope& scope = {});
 
 /// How many pairs `self_intersections` finds.
 std::size_t count_self_intersections(std::span<const Vec3> positions,
                                      std::span<const std::array<std::int32_t, 3>> triangles,
-                                     std::span<const std::uint8_t> subset = {});
+                                     const PairScope& scope = {});
 
 }  // namespace skinforge

@@ -78,7 +78,7 @@ std::vector<std::pair<SourceId, FaceId>> faces_cut_by(const TrianglePatch& patch
                                                       const KeptSurface& kept) {
   const Neighbourhood all = neighbourhood(patch, loops, kept);
   std::vector<std::pair<SourceId, FaceId>> faces;
-  for (const auto& [a, b] : self_intersections(all.positions, all.triangles, all.is_new))
+  for (const auto& [a, b] : self_intersections(all.positions, all.triangles, {all.is_new}))
     if (static_cast<std::size_t>(b) >= patch.triangles.size())  // the higher is the preserved one
       faces.push_back(all.origin[static_cast<std::size_t>(b) - patch.triangles.size()]);
   return faces;
@@ -89,7 +89,7 @@ std::set<std::int32_t> intersecting_triangles(const TrianglePatch& patch,
                                               const KeptSurface& kept) {
   const Neighbourhood all = neighbourhood(patch, loops, kept);
   std::set<std::int32_t> triangles;
-  for (const auto& [a, b] : self_intersections(all.positions, all.triangles, all.is_new))
+  for (const auto& [a, b] : self_intersections(all.positions, all.triangles, {all.is_new}))
     for (const auto t : {a, b})
       if (static_cast<std::size_t>(t) < patch.triangles.size())
         triangles.insert(static_cast<std::int32_t>(t));
@@ -101,7 +101,7 @@ JunctionFaults faults_of(const TrianglePatch& patch, const std::vector<JunctionL
   const Neighbourhood all = neighbourhood(patch, loops, kept);
   JunctionFaults faults;
   faults.non_manifold_edges = count_non_manifold(all);
-  faults.self_intersections = count_self_intersections(all.positions, all.triangles, all.is_new);
+  faults.self_intersections = count_self_intersections(all.positions, all.triangles, {all.is_new});
   faults.degenerate_faces = static_cast<std::size_t>(
       std::count_if(patch.triangles.begin(), patch.triangles.end(),
                     [&](const Triangle& t) { return is_degenerate_face(patch, t); }));

@@ -135,7 +135,7 @@ class Measuring {
       triangles.push_back({c[0].value, c[1].value, c[2].value});
       subset.push_back(is_new(all.face[t]) ? 1 : 0);
     }
-    return count_self_intersections(mesh_.positions, triangles, subset);
+    return count_self_intersections(mesh_.positions, triangles, {subset});
   }
 
   const JoinedSurface& joined_;

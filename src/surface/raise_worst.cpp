@@ -22,7 +22,7 @@ struct Pass {
   double rest;   // factor of all that counts beside it
 };
 constexpr Pass kPasses[] = {{false, 1}, {true, 0.1}};
-constexpr int kRounds = 16;  // of each pass
+constexpr int kRounds = 10;  // of each pass
 constexpr double kFirstStep = 0.6,
                  kShrink = 0.8;  // ours: how far is asked and gone, of the mean edge at the vertex
 constexpr double kDamping =

@@ -86,7 +86,11 @@ TEST(SelfIntersections, MatchBruteForceAndSubsetsSplitThem) {
   std::vector<std::uint8_t> subset(60, 0);
   for (int i = 0; i < 20; ++i) subset[i] = 1;
   std::erase_if(expected, [](const auto& pair) { return pair.first >= 20; });
-  EXPECT_EQ(self_intersections(s.positions, s.triangles, subset), expected);
+  EXPECT_EQ(self_intersections(s.positions, s.triangles, {subset}), expected);
+  std::vector<std::int32_t> groups(60, 0);  // 0 to 29 are one group, 30 to 59 none
+  for (std::size_t i = 30; i < groups.size(); ++i) groups[i] = -1;
+  std::erase_if(expected, [](const auto& pair) { return pair.second < 30; });
+  EXPECT_EQ(self_intersections(s.positions, s.triangles, {subset, groups}), expected);
 }
 
 TEST(SelfIntersections, Empty) {
