@@ -18,6 +18,7 @@ namespace skinforge {
 namespace {
 
 constexpr double kGoodLeast = 0.5, kGoodMean = 0.85;  // junction.md c: of the scaled Jacobian
+constexpr double kMeanWeight = 2;  // ours: once the least passes, how even all faces are shows more
 // Ours: more than the gate of the rung asks for. What is poorer among seams hangs on the last bit of the
 // inputs: composite had 503 or 657 faces of 0.2 to 0.28, depending on its size.
 constexpr double kLeastWithSeams = 0.3;
@@ -29,7 +30,7 @@ class Choice {
  public:
   explicit Choice(const TubeProblem& problem) : problem_(problem) {}
 
-  bool is_good() const { return score_ >= kGoodLeast + kGoodMean; }
+  bool is_good() const { return score_ >= kGoodLeast + kMeanWeight * kGoodMean; }
   const std::optional<QuadPatch>& best() const { return best_; }
   const std::string& fault() const { return fault_; }
   void note(const std::string& trouble) {
@@ -52,7 +53,7 @@ class Choice {
   // What is more than good in one respect does not make up for less in the other.
   static double score_of(const QuadPatch& quads) {
     return std::min(least_scaled_jacobian(quads), kGoodLeast) +
-           std::min(mean_scaled_jacobian(quads), kGoodMean);
+           kMeanWeight * std::min(mean_scaled_jacobian(quads), kGoodMean);
   }
 
   bool is_gain(const QuadPatch& quads) {
