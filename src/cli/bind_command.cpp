@@ -5,11 +5,12 @@
 
 #include "cli/commands.h"
 #include "cli/rigged_input.h"
-#include "base/text.h"
 #include "io/export.h"
 #include "io/number_table.h"
 #include "render/skinning_pictures.h"
 #include "report/text_table.h"
+#include "stages/rig_handles.h"
+#include "stages/rig_tables.h"
 
 namespace skinforge {
 namespace {
@@ -60,14 +61,7 @@ std::string as_json(const Rigged& rigged, const std::vector<std::string>& files)
 
 // The joint with most vertices: the one that says most in a picture.
 JointId pictured_joint(const CommandLine& line, const Rigged& rigged) {
-  const Skeleton& skeleton = rigged.character.skeleton;
-  if (!line.skinning.joint.empty()) {
-    const auto joint = skeleton.find(line.skinning.joint);
-    if (!joint)
-      throw Error(ExitCode::Usage, fmt::format("no joint \"{}\"{}", printable(line.skinning.joint),
-                                               nearest_hint(line.skinning.joint, skeleton.names())));
-    return *joint;
-  }
+  if (!line.skinning.joint.empty()) return joint_named(line.skinning.joint, rigged.character.skeleton);
   const auto all = coverage_of(rigged);
   const auto most = std::max_element(all.begin(), all.end(), [](const Coverage& a, const Coverage& b) {
     return a.influenced < b.influenced;
@@ -75,24 +69,36 @@ JointId pictured_joint(const CommandLine& line, const Rigged& rigged) {
   return JointId(static_cast<std::size_t>(most - all.begin()));
 }
 
+void add_handles(const Rigged& rigged, const std::string& name, const Subject& subject, OutputFolder& out) {
+  if (free_vertices(rigged) == rigged.handles.size()) return;  // heat holds nothing
+  out.add(name + "_handles.dmat", write_dmat(handle_table(rigged)));
+  out.add(name + "_handles.json", handles_json(rigged));
+  out.add(name + "_handles.png",
+          encode_png(handles_picture(subject, rigged.handles, rigged.character.skeleton.size())));
+}
+
+void add_weights(const CommandLine& line, const Rigged& rigged, const Subject& subject, OutputFolder& out) {
+  const std::string name = model_name(line);
+  const Skeleton& skeleton = rigged.character.skeleton;
+  const SkinWeights& weights = rigged.character.weights;
+  const JointId joint = pictured_joint(line, rigged);
+  out.add(name + "_weights.dmat", write_dmat(weight_table(rigged)));
+  out.add(name + "_weights.png", encode_png(weights_picture(subject, weights, skeleton.size())));
+  out.add(name + "_weights_of_joint.png",
+          encode_png(joint_weights_picture(subject, weights, joint, skeleton[joint].name)));
+}
+
 }  // namespace
 
 ExitCode bind_command(const CommandLine& line, Console& console) {
-  if (line.skinning.skeleton.empty()) throw Error(ExitCode::Usage, "bind needs --skeleton FILE");
   const Rigged rigged = read_rigged(line, console);
   const std::string name = model_name(line);
   OutputFolder out(line.out.empty() ? "out/" + name : line.out, input_files(line));
-  out.add(name + ".glb", write_glb(rigged.character, {.max_influences = line.skinning.influences, .extras_json = {}}));
-  out.add(name + "_handles.dmat", write_dmat(handle_table(rigged)));
-  out.add(name + "_weights.dmat", write_dmat(weight_table(rigged)));
+  out.add(name + ".glb",
+          write_glb(rigged.character, {.max_influences = line.skinning.influences, .extras_json = {}}));
   const Subject subject(rigged.character.mesh, rigged.character.materials);
-  const std::size_t joints = rigged.character.skeleton.size();
-  const JointId joint = pictured_joint(line, rigged);
-  out.add(name + "_handles.png", encode_png(handles_picture(subject, rigged.handles, joints)));
-  out.add(name + "_weights.png", encode_png(weights_picture(subject, rigged.character.weights, joints)));
-  out.add(name + "_weights_of_joint.png",
-          encode_png(joint_weights_picture(subject, rigged.character.weights, joint,
-                                           rigged.character.skeleton[joint].name)));
+  add_handles(rigged, name, subject, out);
+  add_weights(line, rigged, subject, out);
   const std::vector<std::string> files = out.write();
   for (const std::string& file : files) console.info("wrote " + file);
   print_data(line.json ? as_json(rigged, files) : as_text(rigged));

@@ -38,8 +38,9 @@ void collect_inputs(const Recipe& recipe, std::vector<fs::path>& files) {
   for (const RecipeInput& input : recipe.inputs) {
     files.push_back(input.file.resolved);
     for (const RecipePath& clips : input.clips) files.push_back(clips.resolved);
-    if (input.bind) files.push_back(input.bind->skeleton.resolved);
-    if (input.bind && !input.bind->handles.text.empty()) files.push_back(input.bind->handles.resolved);
+    if (input.bind)
+      for (const RecipePath& path : {input.bind->skeleton, input.bind->handle_file})
+        if (!path.text.empty()) files.push_back(path.resolved);
     if (input.recipe) collect_inputs(*input.recipe, files);
   }
   for (const RecipeExample& example : recipe.correctives.examples) {

@@ -233,6 +233,7 @@ class Parser {
     app->add_option("--skeleton", request.skeleton,
                     "Bones: a .tgf file, or a model whose joints and clips to take")
         ->type_name("FILE")
+        ->default_str("the model's own")
         ->group("Skin");
     app->add_option("--method", request.bind_method,
                     "How to bind: harmonic (over the surface from handles) or heat (through the inside)")
@@ -240,11 +241,16 @@ class Parser {
         ->type_name("METHOD")
         ->default_str("harmonic")
         ->group("Skin");
-    app->add_option(
-           "--handles", request.handles,
-           "Vertices that bones hold alone: rule, groups, a .dmat of labels, or a .json of vertex lists")
+    app->add_option("--handles", request.handles,
+                    "Vertices that bones hold alone: rule, groups, skin, a .dmat of labels, a .json of "
+                    "vertex lists, or a "
+                    "painted .png")
         ->type_name("WHAT")
         ->default_str("rule")
+        ->group("Skin");
+    app->add_option("--label-colors", request.label_colors,
+                    "Colours of a painted image by joint, as {\"Head\": \"#ff8000\"}")
+        ->type_name("FILE")
         ->group("Skin");
     app->add_option("--poses", request.poses, "Rotations of all bones, a .dmat file each; becomes a clip")
         ->type_name("FILE")
@@ -277,7 +283,19 @@ class Parser {
         ->type_name("SHAPE POSE")
         ->expected(2)
         ->take_all()
-        ->group("Frames");
+        ->group("Examples");
+    app->add_flag("!--no-rest", request.with_rest, "Do not take the rest pose as one more example")
+        ->group("Examples");
+    app->add_option("--kernel", request.kernel, "How examples share between them: linear or gaussian")
+        ->check(CLI::IsMember({"linear", "gaussian"}).description(""))
+        ->type_name("KERNEL")
+        ->default_str("linear")
+        ->group("Examples");
+    app->add_option("--driver-joint", request.driver_joints,
+                    "A joint by whose rotation poses are compared; may be given several times")
+        ->type_name("NAME")
+        ->default_str("all but roots")
+        ->group("Examples");
   }
 
   void add_skinning_verbs() {

@@ -31,15 +31,19 @@ enum class Verb {
 
 /// What the verbs of the skinning toolkit are told. The model itself is CommandLine::file.
 struct SkinningRequest {
-  std::string skeleton;                  ///< .tgf or a model; empty: the model has its skin
-  std::string handles = "rule";          ///< or "groups", or a file
-  std::string bind_method = "harmonic";  ///< or "heat"
-  std::vector<std::string> poses;        ///< .dmat files
-  std::vector<std::string> examples;     ///< shape and pose in turn
-  std::string deform_method = "lbs";     ///< deform
-  std::string clip;                      ///< empty: the first
-  std::string format = "obj";            ///< or "ply"; deform
-  std::string joint;                     ///< whose weights bind draws; empty: the one with most vertices
+  std::string skeleton;                    ///< .tgf or a model; empty: the model has its skin
+  std::string handles = "rule";            ///< or "groups", "skin", or a file
+  std::string label_colors;                ///< .json: joints and their colours in a painted image
+  std::string bind_method = "harmonic";    ///< or "heat"
+  std::vector<std::string> poses;          ///< .dmat files
+  std::vector<std::string> examples;       ///< shape and pose in turn
+  bool with_rest = true;                   ///< the rest pose is an example, too
+  std::string kernel = "linear";           ///< or "gaussian"; of examples
+  std::vector<std::string> driver_joints;  ///< by which poses are compared; empty: all but roots
+  std::string deform_method = "lbs";       ///< deform
+  std::string clip;                        ///< empty: the first
+  std::string format = "obj";              ///< or "ply"; deform
+  std::string joint;                       ///< whose weights bind draws; empty: the one with most vertices
   std::size_t frames = 24;
   std::size_t influences = 4;  ///< bind
   double rate_hz = 30;         ///< of .dmat files

@@ -8,8 +8,9 @@
 
 namespace skinforge {
 
-/// The model that a verb of the skinning toolkit works on: bound here where the command line names a
-/// skeleton, else with the skin it has. Issues are said on the console. Throws Error like the readers.
+/// The model that a verb of the skinning toolkit works on: bound here by `bind`, and where the command line
+/// names a skeleton, handles or a method; else with the skin it has. Issues are said on the console. Throws
+/// Error like the readers.
 Rigged read_rigged(const CommandLine& line, Console& console);
 
 /// All files that the command line names as inputs.
@@ -20,6 +21,9 @@ std::string model_name(const CommandLine& line);
 
 /// The examples of the command line as a deformer takes them.
 DeformOptions deform_options(const CommandLine& line, const Rigged& rigged);
+
+/// Throws Error (Usage) with the nearest names.
+JointId joint_named(const std::string& name, const Skeleton& skeleton);
 
 /// The clip of the command line, or the first. Throws Error (Usage) with the nearest names; where the model
 /// has none, too.

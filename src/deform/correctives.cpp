@@ -173,6 +173,21 @@ class Baker {
 
 }  // namespace
 
+double replay_error(std::span<const Vec3> rest, const SkinWeights& weights,
+                    std::span<const std::vector<Vec3>> targets, std::size_t count,
+                    const std::function<CorrectiveFrame(std::size_t)>& frame,
+                    const std::function<std::vector<double>(std::size_t)>& blend) {
+  std::vector<double> errors(count, 0.0);
+  parallel_for(count, [&](std::size_t i) {
+    const CorrectiveFrame wanted = frame(i);
+    const std::vector<double> row = blend(i);
+    std::vector<Vec3> shape(rest.begin(), rest.end());
+    for (std::size_t t = 0; t < targets.size(); ++t) add(shape, row[t], targets[t]);
+    errors[i] = distance(linear_blend(shape, weights, wanted.palette), wanted.goal).largest;
+  });
+  return count == 0 ? 0 : *std::max_element(errors.begin(), errors.end());
+}
+
 Correctives bake_correctives(std::span<const Vec3> rest, const SkinWeights& weights, std::size_t count,
                              const std::function<CorrectiveFrame(std::size_t)>& frame,
                              const CorrectiveOptions& options) {

@@ -33,6 +33,13 @@ struct Correctives {
   std::size_t damped = 0;        ///< (vertex, frame) pairs that no offset reaches (`unpose`)
 };
 
+/// The largest distance of linear blending of (rest + sum of `blend(i)` times `targets`) from `frame(i)`,
+/// over i in [0, count): how well targets do in frames that they were not made of. Metres. Parallel.
+double replay_error(std::span<const Vec3> rest, const SkinWeights& weights,
+                    std::span<const std::vector<Vec3>> targets, std::size_t count,
+                    const std::function<CorrectiveFrame(std::size_t)>& frame,
+                    const std::function<std::vector<double>(std::size_t)>& blend);
+
 /// The few targets that lose least: goals are unposed against `weights` (those that will be written, after
 /// cut and rounding), and the offsets of all frames decomposed by singular values; weights are the least
 /// squares coefficients of each frame. `frame(i)`: called for i in [0, count), possibly twice. Zero weights

@@ -97,9 +97,11 @@ void Deformer::prepare_examples(const Skeleton& skeleton, const std::string& pla
 }
 
 void Deformer::prepare_faces(const PolygonMesh& mesh, const std::string& place, IssueSink& issues) {
-  const Triangulation faces = triangulate(mesh);
-  blend_ = std::make_unique<FaceBlend>(faces.triangles, weights_);
-  stitcher_ = std::make_unique<PoissonStitcher>(rest_, faces.triangles, options_.held);
+  surface_ = weld_surface(rest_, triangulate(mesh).triangles, &weights_);
+  std::vector<VertexId> held;
+  for (const VertexId v : options_.held) held.push_back(surface_.welded[v.index()]);
+  blend_ = std::make_unique<FaceBlend>(surface_.triangles, surface_.gather(weights_));
+  stitcher_ = std::make_unique<PoissonStitcher>(surface_.positions, surface_.triangles, held);
   if (stitcher_->added() > 0)
     issues.note(
         "stitch-parts-held", place,
@@ -112,14 +114,15 @@ void Deformer::prepare_faces(const PolygonMesh& mesh, const std::string& place, 
   std::vector<std::vector<Vec3>> shapes;
   std::vector<std::vector<Quat>> rotations;
   for (const DeformExample& example : options_.examples) {
-    shapes.push_back(example.shape);
+    shapes.push_back(surface_.gather(example.shape));
     rotations.push_back(rotations_of(example.bones.motions));
   }
   if (options_.with_rest) {
-    shapes.push_back(rest_);
+    shapes.push_back(surface_.positions);
     rotations.emplace_back(rotations.front().size(), Quat::Identity());
   }
-  context_ = std::make_unique<FaceContext>(*stitcher_, *blend_, rest_, faces.triangles, shapes, rotations);
+  context_ = std::make_unique<FaceContext>(*stitcher_, *blend_, surface_.positions, surface_.triangles,
+                                           shapes, rotations);
 }
 
 std::vector<double> Deformer::example_weights(const PosedBones& bones) const {
@@ -139,12 +142,14 @@ std::vector<Vec3> Deformer::by_face(const PosedBones& bones) const {
   const std::vector<Quat> rotations = blend_->rotations(rotations_of(bones.motions));
   if (context_) {
     const auto kind = method_ == DeformMethod::ContextFace ? FaceContextKind::Linear : FaceContextKind::Polar;
-    return stitcher_->stitch(context_->maps(rotations, example_weights(bones), kind), by_vertex(bones));
+    return surface_.spread(stitcher_->stitch(context_->maps(rotations, example_weights(bones), kind),
+                                             surface_.gather(by_vertex(bones))));
   }
   std::vector<Mat3> maps;
   maps.reserve(rotations.size());
   for (const Quat& rotation : rotations) maps.push_back(rotation.toRotationMatrix());
-  return stitcher_->stitch(maps, linear_blend(rest_, weights_, bones.palette));
+  const std::vector<Vec3> places = linear_blend(rest_, weights_, bones.palette);
+  return surface_.spread(stitcher_->stitch(maps, surface_.gather(places)));
 }
 
 std::vector<Vec3> Deformer::operator()(const PosedBones& bones) const {

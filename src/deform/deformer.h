@@ -11,6 +11,7 @@
 #include "deform/face_context.h"
 #include "deform/posed_bones.h"
 #include "model/polygon_mesh.h"
+#include "skinning/welded_surface.h"
 
 namespace skinforge {
 
@@ -81,6 +82,7 @@ class Deformer {
   DeformOptions options_;
   ExampleWeights driver_;
   std::vector<std::vector<Vec3>> offsets_;
+  WeldedSurface surface_;  ///< of the methods per face: parts that touch are stitched together
   std::unique_ptr<FaceBlend> blend_;
   std::unique_ptr<PoissonStitcher> stitcher_;
   std::unique_ptr<FaceContext> context_;

@@ -172,14 +172,15 @@ class RecipeReader {
   }
 
   RecipeBind read_bind(const ValueReader& reader) const {
-    const ObjectReader object = reader.object(
-        {"skeleton", "method", "handles", "handle_factor", "handle_least", "resolution", "rate_hz"});
+    const ObjectReader object = reader.object({"skeleton", "method", "handles", "handle_weight",
+                                               "handle_factor", "handle_least", "resolution", "rate_hz"});
     RecipeBind bind;
-    bind.skeleton = read_path(object.at("skeleton"));
+    if (const auto skeleton = object.find("skeleton")) bind.skeleton = read_path(*skeleton);
     if (const auto method = object.find("method"))
       bind.method = method->choice<RecipeBindMethod>(
           {{"harmonic", RecipeBindMethod::Harmonic}, {"heat", RecipeBindMethod::Heat}});
     if (const auto handles = object.find("handles")) read_handles(*handles, bind);
+    if (const auto weight = object.find("handle_weight")) bind.handle_weight = weight->number(0.5, 1);
     if (const auto factor = object.find("handle_factor")) bind.handle_factor = factor->number(1, 100);
     if (const auto least = object.find("handle_least")) bind.handle_least = least->integer(0, 100000);
     if (const auto resolution = object.find("resolution")) bind.resolution = resolution->integer(16, 512);
@@ -188,34 +189,60 @@ class RecipeReader {
   }
 
   void read_handles(const ValueReader& reader, RecipeBind& bind) const {
-    const std::string text = reader.text();
     if (bind.method == RecipeBindMethod::Heat) reader.fail("method \"heat\" takes no handles");
-    if (text == "rule") return;
-    bind.from_groups = text == "groups";
-    if (bind.from_groups) return;
-    bind.handles = read_path(reader);
-    const std::string extension = extension_of(bind.handles.resolved);
+    if (reader.is_object()) return read_painted_handles(reader, bind);
+    const std::map<std::string, RecipeHandles> kinds{
+        {"rule", RecipeHandles::Rule}, {"groups", RecipeHandles::Groups}, {"skin", RecipeHandles::Skin}};
+    if (const auto kind = kinds.find(reader.text()); kind != kinds.end()) {
+      bind.handles = kind->second;
+      return;
+    }
+    bind.handles = RecipeHandles::Labels;
+    bind.handle_file = read_path(reader);
+    const std::string extension = extension_of(bind.handle_file.resolved);
     if (extension != ".dmat" && extension != ".json")
-      reader.fail_expected("\"rule\", \"groups\", or a .dmat or .json file");
+      reader.fail_expected(
+          "\"rule\", \"groups\", \"skin\", a .dmat or .json file, or an object with \"image\"");
+  }
+
+  void read_painted_handles(const ValueReader& reader, RecipeBind& bind) const {
+    const ObjectReader object = reader.object({"image", "colors"});
+    bind.handles = RecipeHandles::Image;
+    bind.handle_file = read_path(object.at("image"));
+    for (const auto& [joint, value] : object.at("colors").members()) {
+      const auto color = parse_color(value.text());
+      if (!color) value.fail_expected("a colour such as \"#ff8000\"");
+      bind.colors[joint] = *color;
+    }
+    if (bind.colors.empty()) object.at("colors").fail("expected at least one joint");
   }
 
   void read_correctives(const ValueReader& reader) {
-    const ObjectReader object = reader.object({"method", "targets", "enough", "examples"});
+    const ObjectReader object =
+        reader.object({"method", "targets", "enough", "examples", "rest", "kernel", "joints"});
     CorrectivesOptions& options = recipe_.correctives;
     options.method = object.at("method").choice<RecipeDeform>({{"dqs", RecipeDeform::DualQuaternion},
                                                                {"poisson", RecipeDeform::Poisson},
                                                                {"context", RecipeDeform::Context}});
     if (const auto targets = object.find("targets")) options.targets = targets->integer(1, 64);
     if (const auto enough = object.find("enough")) options.enough = enough->number(0, 1);
-    const auto examples = object.find("examples");
-    const bool is_context = options.method == RecipeDeform::Context;
-    if (!is_context && examples) examples->fail("examples are for method \"context\"");
-    if (!is_context) return;
+    if (options.method == RecipeDeform::Context) return read_context(reader, object);
+    for (const char* key : {"examples", "rest", "kernel", "joints"})
+      if (const auto value = object.find(key)) value->fail(fmt::format("{} is for method \"context\"", key));
+  }
+
+  void read_context(const ValueReader& reader, const ObjectReader& object) {
+    CorrectivesOptions& options = recipe_.correctives;
     for (const ValueReader& item : object.at("examples").items()) {
       const ObjectReader example = item.object({"shape", "pose"});
       options.examples.push_back({read_path(example.at("shape")), read_path(example.at("pose"))});
     }
     if (options.examples.empty()) object.at("examples").fail("expected at least one example");
+    if (const auto rest = object.find("rest")) options.rest = rest->boolean();
+    if (const auto kernel = object.find("kernel"))
+      options.kernel = kernel->choice<RecipeKernel>(
+          {{"linear", RecipeKernel::Linear}, {"gaussian", RecipeKernel::Gaussian}});
+    if (const auto joints = object.find("joints")) options.joints = read_joints(*joints);
     const bool is_bound = recipe_.inputs[recipe_.input_index(recipe_.base)].bind.has_value();
     if (!is_bound || !recipe_.operations.empty())
       reader.fail(

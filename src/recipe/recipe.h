@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/archive.h"
+#include "base/color_text.h"
 #include "base/error.h"
 #include "base/hash.h"
 
@@ -40,21 +41,33 @@ struct RecipePath {
 
 enum class RecipeBindMethod : std::uint8_t { Harmonic, Heat };
 
-/// A model without a skin that gets one: bones of another file, weights worked out here.
+/// Where the vertices come from that bones hold alone (ETH Sec. 4.1).
+enum class RecipeHandles : std::uint8_t {
+  Rule,    ///< by distance from the bones
+  Groups,  ///< face groups named after joints
+  Skin,    ///< the weights that the model has, or else the model that gives the skeleton
+  Labels,  ///< a .dmat of labels or a .json of vertex lists
+  Image    ///< a painted image, looked up by UV
+};
+
+/// A model that gets its skin here: bones of its own or of another file, weights worked out.
 struct RecipeBind {
-  RecipePath skeleton;  ///< .tgf, or a model whose joints and clips are taken
+  RecipePath skeleton;  ///< .tgf, or a model whose joints and clips are taken; empty text: the model's own
   RecipeBindMethod method = RecipeBindMethod::Harmonic;
-  RecipePath handles;          ///< .dmat or .json; empty text: `handle_rule` or groups
-  bool from_groups = false;    ///< handles from face groups named after joints
-  double handle_factor = 1.5;  ///< of the geometric rule (ETH Sec. 4.1)
-  int handle_least = 12;       ///< vertices of a joint it widens itself to take
-  int resolution = 96;         ///< cells along the model, of Heat
-  double rate_hz = 30;         ///< frames a second of .dmat clips
+  RecipeHandles handles = RecipeHandles::Rule;
+  RecipePath handle_file;                ///< of Labels and Image
+  std::map<std::string, Color8> colors;  ///< of Image: the colour of each joint
+  double handle_weight = 0.6;            ///< of Skin: a joint holds vertices whose weight is above this
+  double handle_factor = 1.5;            ///< of Rule (ETH Sec. 4.1)
+  int handle_least = 12;                 ///< of Rule: vertices of a joint it widens itself to take
+  int resolution = 96;                   ///< cells along the model, of Heat
+  double rate_hz = 30;                   ///< frames a second of .dmat clips
 
   /// All but where files lie.
   template <class Archive>
   friend void fields(Archive& a, RecipeBind& b) {
-    a(b.method, b.from_groups, b.handle_factor, b.handle_least, b.resolution, b.rate_hz);
+    a(b.method, b.handles, b.colors, b.handle_weight, b.handle_factor, b.handle_least, b.resolution,
+      b.rate_hz);
   }
 };
 
@@ -78,8 +91,8 @@ enum class OperationKind : std::uint8_t { Replace, Attach, Remove, Detach };
 enum class Align : std::uint8_t { Joint, Loop, None };
 enum class BlendKind : std::uint8_t { Auto, Paper, Smin, Gradient };
 
-/// How the surfaces of an operation become one (SkinMixer Eq. 1 and beyond). "blend" (replace) and "union" (attach) say
-/// what the operation does anyway, and mean Auto.
+/// How the surfaces of an operation become one (SkinMixer Eq. 1 and beyond). "blend" (replace) and "union"
+/// (attach) say what the operation does anyway, and mean Auto.
 struct Blend {
   BlendKind kind = BlendKind::Auto;
   double radius = 0;  ///< of the fillet, metres; 0: by the parts
@@ -229,6 +242,7 @@ struct AnimationOptions {
 };
 
 enum class RecipeDeform : std::uint8_t { None, DualQuaternion, Poisson, Context };
+enum class RecipeKernel : std::uint8_t { Linear, Gaussian };
 
 /// Morph targets that bring the clips to what a better skinning method gives, under plain linear blending.
 struct CorrectivesOptions {
@@ -236,10 +250,14 @@ struct CorrectivesOptions {
   int targets = 8;       ///< at most; [1, 64]
   double enough = 1e-4;  ///< of the bounding box's diagonal: no more targets once the error is below
   std::vector<RecipeExample> examples;  ///< of Context
+  bool rest = true;                     ///< of Context: the rest pose is one more example, without change
+  RecipeKernel kernel = RecipeKernel::Linear;  ///< of Context
+  std::vector<std::string>
+      joints;  ///< of Context: whose rotations say how near a pose is; empty: all but roots
 
   template <class Archive>
   friend void fields(Archive& a, CorrectivesOptions& o) {
-    a(o.method, o.targets, o.enough);
+    a(o.method, o.targets, o.enough, o.rest, o.kernel, o.joints);
   }
 };
 

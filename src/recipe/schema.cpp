@@ -66,41 +66,64 @@ Json pose() {
   return {{"type", "object"}, {"additionalProperties", change}, {"default", Json::object()}};
 }
 
+Json joints() {
+  return {
+      {"anyOf", {text(), {{"type", "array"}, {"items", text()}, {"minItems", 1}, {"uniqueItems", true}}}}};
+}
+
+Json painted_handles() {
+  const Json color = {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}};
+  return closed_object(
+      {{"image", described("PNG or JPEG over the model's first UV set.", path(), {"labels.png"})},
+       {"colors", described("The colour of each joint; others are free.",
+                            {{"type", "object"}, {"additionalProperties", color}, {"minProperties", 1}},
+                            {{{"Head", "#ff8000"}}})}},
+      {"image", "colors"});
+}
+
+Json handles() {
+  return described(
+      "Vertices that a bone holds alone: rule (by distance), groups (face groups named after joints), skin "
+      "(the "
+      "weights of the model, or of the model that gives the skeleton), a .dmat of labels, a .json of vertex "
+      "lists "
+      "by joint, or a painted image.",
+      {{"anyOf", {path(), painted_handles()}}, {"default", "rule"}}, {"handles.dmat", "skin"});
+}
+
 Json bind() {
   const RecipeBind defaults;
-  return closed_object(
-      {
-          {"skeleton", described("Bones: a .tgf file, or a model whose joints and clips are taken.", path(),
-                                 {"skeleton.tgf", "human.glb"})},
-          {"method",
-           described("harmonic: over the surface from handles; heat: from the bones through the inside, "
-                     "for surfaces of many or broken parts.",
-                     {{"type", "string"}, {"enum", {"harmonic", "heat"}}, {"default", "harmonic"}},
-                     {"heat"})},
-          {"handles",
-           described("Vertices that a bone holds alone: rule (by distance), groups (face groups named "
-                     "after joints), a .dmat of labels, or a .json of vertex lists by joint.",
-                     with_default(path(), "rule"), {"handles.dmat", "groups"})},
-          {"handle_factor", described("The rule takes vertices up to this times the closest distance.",
-                                      with_default(number(1, 100, "factor"), defaults.handle_factor), {1.5})},
-          {"handle_least", described("Vertices of each joint that the rule widens itself to take.",
-                                     {{"type", "integer"},
-                                      {"minimum", 0},
-                                      {"maximum", 100000},
-                                      {"default", defaults.handle_least},
-                                      {"unit", "vertices"}},
-                                     {12})},
-          {"resolution", described("Cells along the longest side of the model, of heat.",
-                                   {{"type", "integer"},
-                                    {"minimum", 16},
-                                    {"maximum", 512},
-                                    {"default", defaults.resolution},
-                                    {"unit", "cells"}},
-                                   {96})},
-          {"rate_hz", described("Frames of .dmat clips.",
-                                with_default(number(1, 240, "1/second"), defaults.rate_hz), {30})},
-      },
-      {"skeleton"});
+  return closed_object({
+      {"skeleton", described("Bones: a .tgf file, or a model whose joints and clips are taken; left out, the "
+                             "model's own.",
+                             path(), {"skeleton.tgf", "human.glb"})},
+      {"method",
+       described("harmonic: over the surface from handles; heat: from the bones through the inside, "
+                 "for surfaces of many or broken parts.",
+                 {{"type", "string"}, {"enum", {"harmonic", "heat"}}, {"default", "harmonic"}}, {"heat"})},
+      {"handles", handles()},
+      {"handle_weight",
+       described("A joint holds the vertices whose weight is above this, with handles \"skin\".",
+                 with_default(number(0.5, 1, "1"), defaults.handle_weight), {0.6})},
+      {"handle_factor", described("The rule takes vertices up to this times the closest distance.",
+                                  with_default(number(1, 100, "factor"), defaults.handle_factor), {1.5})},
+      {"handle_least", described("Vertices of each joint that the rule widens itself to take.",
+                                 {{"type", "integer"},
+                                  {"minimum", 0},
+                                  {"maximum", 100000},
+                                  {"default", defaults.handle_least},
+                                  {"unit", "vertices"}},
+                                 {12})},
+      {"resolution", described("Cells along the longest side of the model, of heat.",
+                               {{"type", "integer"},
+                                {"minimum", 16},
+                                {"maximum", 512},
+                                {"default", defaults.resolution},
+                                {"unit", "cells"}},
+                               {96})},
+      {"rate_hz",
+       described("Frames of .dmat clips.", with_default(number(1, 240, "1/second"), defaults.rate_hz), {30})},
+  });
 }
 
 Json correctives() {
@@ -114,7 +137,7 @@ Json correctives() {
           {"method",
            described("dqs: dual quaternions; poisson: averaged rotations, stitched; context: from examples.",
                      {{"type", "string"}, {"enum", {"dqs", "poisson", "context"}}}, {"dqs"})},
-          {"targets", described("Morph targets at most.",
+          {"targets", described("Morph targets at most; context has one for each example.",
                                 {{"type", "integer"},
                                  {"minimum", 1},
                                  {"maximum", 64},
@@ -128,6 +151,15 @@ Json correctives() {
           {"examples",
            described("Shapes in poses, of context.", {{"type", "array"}, {"items", example}, {"minItems", 1}},
                      {{{{"shape", "eg0.obj"}, {"pose", "eg0.dmat"}}}})},
+          {"rest", described("The rest pose is one more example, without change, of context.",
+                             {{"type", "boolean"}, {"default", defaults.rest}}, {true})},
+          {"kernel", described("How examples share between them, of context: phi(r) = r, or a Gaussian.",
+                               {{"type", "string"}, {"enum", {"linear", "gaussian"}}, {"default", "linear"}},
+                               {"linear"})},
+          {"joints",
+           described("Joints whose rotations say how near a pose is to an example, of context; left "
+                     "out, all but roots.",
+                     joints(), {{"UpperArm.L", "LowerArm.L"}})},
       },
       {"method"});
 }
@@ -141,7 +173,7 @@ Json input() {
       {"clips",
        described("Further files whose clips are added; .dmat files of rotations for a .tgf skeleton.",
                  with_default({{"type", "array"}, {"items", path()}}, Json::array()), {{"walk.fbx"}})},
-      {"bind", described("Gives a model without a skin its bones and weights.", bind(),
+      {"bind", described("Gives a model its skin: bones and weights.", bind(),
                          {{{"skeleton", "skeleton.tgf"}, {"method", "harmonic"}}})},
       {"pose", described("Pose of the input before it is mixed, by joint name.", pose(),
                          {{{"Head", {{"rotate_deg", {10, 0, 0}}}}}})},
@@ -178,11 +210,6 @@ Json placement() {
       {"offset",
        described("Move at the end.", with_default(vector3("metres"), defaults.offset), {{0, 0.05, 0}})},
   });
-}
-
-Json joints() {
-  return {
-      {"anyOf", {text(), {{"type", "array"}, {"items", text()}, {"minItems", 1}, {"uniqueItems", true}}}}};
 }
 
 // `with_defaults`: of the recipe; an operation takes the recipe's where it does not say otherwise.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/expect.h"
+#include "skeleton/pose.h"
 
 namespace skinforge {
 namespace {
@@ -32,12 +33,11 @@ Clip blank_clip(const BoneRig& rig, const std::string& name, double duration) {
   return clip;
 }
 
-void add_key(const BoneRig& rig, Clip& clip, double time, std::span<const Quat> rotations) {
-  std::vector<std::size_t> bone_of_joint(rig.skeleton.size());
-  for (std::size_t k = 0; k < rotations.size(); ++k) bone_of_joint[rig.joint_of_bone[k].index()] = k;
+void add_key(const BoneRig& rig, Clip& clip, double time, std::span<const Quat> relative) {
+  const std::vector<Quat> local = local_rotations(rig, relative);
   for (JointTracks& tracks : clip.joints) {
     tracks.rotation.times.push_back(time);
-    tracks.rotation.values.push_back(rotations[bone_of_joint[tracks.joint.index()]]);
+    tracks.rotation.values.push_back(local[tracks.joint.index()]);
   }
 }
 
@@ -62,6 +62,20 @@ BoneRig make_bone_rig(const BoneForest& forest) {
     if (is_last[k])
       add_joint(rig.skeleton, fmt::format("bone{}_end", k), rig.joint_of_bone[k], forest.end[k]);
   return rig;
+}
+
+std::vector<Quat> local_rotations(const BoneRig& rig, std::span<const Quat> relative) {
+  SF_EXPECT(relative.size() == rig.joint_of_bone.size());
+  const Pose bind = bind_pose(rig.skeleton);
+  const std::vector<Quat> model_from_joint = global_rotations(rig.skeleton, bind);
+  std::vector<Quat> local;
+  for (const Transform& joint : bind) local.push_back(joint.rotation);
+  for (std::size_t k = 0; k < relative.size(); ++k) {
+    const JointId joint = rig.joint_of_bone[k], parent = rig.skeleton[joint].parent;
+    const Quat above = parent.is_valid() ? model_from_joint[parent.index()] : Quat::Identity();
+    local[joint.index()] = above.conjugate() * relative[k] * model_from_joint[joint.index()];
+  }
+  return local;
 }
 
 Clip clip_of_frames(const BoneRig& rig, const RotationFrames& frames, const std::string& name,

@@ -21,6 +21,11 @@ struct BoneRig {
 /// Joints are called "bone0", ... by the number of their bone from 0, ends "bone7_end".
 BoneRig make_bone_rig(const BoneForest& forest);
 
+/// Local rotations of the joints of `rig` whose bones turn by `relative`, one a bone: with respect to the
+/// parent, in model axes of the bind pose (ETH Sec. 3). With G the bind rotation from joint to model axes:
+/// G_parent^-1 q G. Joints without a bone keep theirs. One a joint.
+std::vector<Quat> local_rotations(const BoneRig& rig, std::span<const Quat> relative);
+
 /// The clip that plays frames at `rate_hz`, the first at 0 s: one rotation track a bone.
 Clip clip_of_frames(const BoneRig& rig, const RotationFrames& frames, const std::string& name,
                     double rate_hz);

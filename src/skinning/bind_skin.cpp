@@ -9,6 +9,7 @@
 #include "geometry/triangle_bvh.h"
 #include "geometry/vertex_sets.h"
 #include "skinning/harmonic_weights.h"
+#include "skinning/welded_surface.h"
 
 namespace skinforge {
 namespace {
@@ -28,27 +29,27 @@ class Binder {
  public:
   Binder(const PolygonMesh& mesh, const Skeleton& skeleton, const BindOptions& options,
          const std::string& place, IssueSink& issues)
-      : mesh_(mesh),
-        skeleton_(skeleton),
+      : skeleton_(skeleton),
         options_(options),
         place_(place),
         issues_(issues),
         segments_(bone_segments(skeleton)),
-        triangles_(triangulate(mesh).triangles) {
+        surface_(weld_surface(mesh.positions, triangulate(mesh).triangles)) {
     drop_movers();
-    if (triangles_.empty()) throw Error(ExitCode::BadInput, place + ": a mesh without faces cannot be bound");
+    if (surface_.triangles.empty())
+      throw Error(ExitCode::BadInput, place + ": a mesh without faces cannot be bound");
     if (segments_.empty()) throw Error(ExitCode::BadInput, place + ": a skeleton without bones cannot bind");
   }
 
   BoundSkin bind() {
     if (options_.method == BindMethod::Heat) {
-      skin_.handles.resize(mesh_.vertex_count());
-      skin_.weights = bone_heat_weights(mesh_.positions, triangles_, segments_, options_.heat);
+      skin_.handles.resize(surface_.positions.size());
+      skin_.weights = bone_heat_weights(surface_.positions, surface_.triangles, segments_, options_.heat);
     } else {
       bind_by_handles();
     }
     tidy();
-    return std::move(skin_);
+    return {surface_.spread(skin_.weights), surface_.spread(skin_.handles)};
   }
 
  private:
@@ -56,8 +57,8 @@ class Binder {
   // on whose segments run outside the surface for more than half of their length hold nothing.
   void drop_movers() {
     std::vector<std::array<std::int32_t, 3>> soup;
-    for (const VertexTriangle& t : triangles_) soup.push_back({t[0].value, t[1].value, t[2].value});
-    const TriangleBvh bvh(mesh_.positions, soup);
+    for (const VertexTriangle& t : surface_.triangles) soup.push_back({t[0].value, t[1].value, t[2].value});
+    const TriangleBvh bvh(surface_.positions, soup);
     std::vector<JointId> movers;
     for (std::size_t j = 0; j < skeleton_.size(); ++j) {
       const JointId joint(j), parent = skeleton_[joint].parent;
@@ -89,11 +90,12 @@ class Binder {
   }
 
   void bind_by_handles() {
-    skin_.handles = options_.handles.empty() ? handles_by_distance(mesh_.positions, segments_, options_.rule)
-                                             : options_.handles;
-    SF_EXPECT(skin_.handles.size() == mesh_.vertex_count());
+    SF_EXPECT(options_.handles.empty() || options_.handles.size() == surface_.welded.size());
+    skin_.handles = options_.handles.empty()
+                        ? handles_by_distance(surface_.positions, segments_, options_.rule)
+                        : surface_.weld(options_.handles);
     report_coverage();
-    HarmonicWeights harmonic = harmonic_weights(mesh_.positions, triangles_, skin_.handles);
+    HarmonicWeights harmonic = harmonic_weights(surface_.positions, surface_.triangles, skin_.handles);
     if (harmonic.degenerate > 0)
       issues_.warn("triangles-without-area", place_,
                    fmt::format("{} triangles have no area and count as equilateral", harmonic.degenerate));
@@ -125,21 +127,21 @@ class Binder {
 
   // Every unreached part follows the bone whose distances to its vertices have the least sum.
   void go_rigidly(std::span<const VertexId> unreached) {
-    VertexSets sets(mesh_.vertex_count());
-    for (const VertexTriangle& t : triangles_) {
+    VertexSets sets(surface_.positions.size());
+    for (const VertexTriangle& t : surface_.triangles) {
       sets.join(t[0], t[1]);
       sets.join(t[1], t[2]);
     }
-    std::vector<std::vector<double>> sums(mesh_.vertex_count());  // [lowest vertex of a part][segment]
+    std::vector<std::vector<double>> sums(surface_.positions.size());  // [lowest vertex of a part][segment]
     for (const VertexId v : unreached) {
       auto& sum = sums[sets.find(v).index()];
       sum.resize(segments_.size(), 0.0);
       for (std::size_t k = 0; k < segments_.size(); ++k)
-        sum[k] += segments_[k].distance(mesh_.positions[v.index()]);
+        sum[k] += segments_[k].distance(surface_.positions[v.index()]);
     }
     SkinWeights filled;
     std::size_t parts = 0;
-    for (std::size_t v = 0; v < mesh_.vertex_count(); ++v) {
+    for (std::size_t v = 0; v < surface_.positions.size(); ++v) {
       const auto row = skin_.weights.of(VertexId(v));
       parts += sums[v].empty() ? 0 : 1;
       if (!row.empty()) {
@@ -171,14 +173,13 @@ class Binder {
     skin_.weights = std::move(rows);
   }
 
-  const PolygonMesh& mesh_;
   const Skeleton& skeleton_;
   const BindOptions& options_;
   const std::string& place_;
   IssueSink& issues_;
   std::vector<BoneSegment> segments_;
-  std::vector<VertexTriangle> triangles_;
-  BoundSkin skin_;
+  WeldedSurface surface_;
+  BoundSkin skin_;  ///< by vertex of the surface
 };
 
 }  // namespace

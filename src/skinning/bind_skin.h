@@ -28,7 +28,8 @@ struct BoundSkin {
   Handles handles;      ///< what held the weights; all free for Heat
 };
 
-/// A skin for a mesh without one. What the method leaves open is settled here and reported at `place`:
+/// A skin for a mesh. Vertices at one place count as one (`weld_surface`), so parts that touch move together.
+/// What the method leaves open is settled here and reported at `place`:
 ///  - parts that no handle reaches go rigidly with the bone nearest to them on average;
 ///  - weights outside [0, 1] are clamped and rows scaled to sum 1, before the cut to `influences`;
 ///  - joints from the root on that run outside the surface for more than half of their length only place the

@@ -48,14 +48,17 @@ void add_rigged_import(const Recipe& recipe, std::size_t i, Engine& engine, cons
   RigParameters parameters{input.name, *input.bind, {}};
   std::size_t next = 0;
   const auto add = [&](const RecipePath& path, RigRole role) {
-    for (const std::string& file : add_files(engine, names, input.name, path, next))
-      parameters.files.push_back({file, role});
+    bool is_first = true;
+    for (const std::string& file : add_files(engine, names, input.name, path, next)) {
+      parameters.files.push_back({file, role, is_first});
+      is_first = false;
+    }
   };
   with_context(recipe.place("/inputs/" + input.name), [&] {
     add(input.file, RigRole::Model);
-    add(input.bind->skeleton, RigRole::Skeleton);
-    if (!input.bind->handles.text.empty()) add(input.bind->handles, RigRole::Labels);
-    for (const RecipePath& clips : input.clips) add(clips, RigRole::Poses);
+    if (!input.bind->skeleton.text.empty()) add(input.bind->skeleton, RigRole::Skeleton);
+    if (!input.bind->handle_file.text.empty()) add(input.bind->handle_file, RigRole::HandleFile);
+    for (const RecipePath& clips : input.clips) add(clips, RigRole::Clips);
   });
   if (input.name == recipe.base)
     with_context(recipe.place("/correctives/examples"), [&] {

@@ -1,5 +1,6 @@
 #include "stages/clip_frames.h"
 
+#include "animation/morphing.h"
 #include "animation/sampling.h"
 #include "skinning/linear_blend.h"
 
@@ -11,7 +12,7 @@ std::vector<ClipFrame> frames_at(const Character& character, const Clip& clip,
   for (const double time : times) {
     const Pose pose = sample(character.skeleton, clip, time);
     frames.push_back({time,
-                      linear_blend(character.mesh.positions, character.weights,
+                      linear_blend(morphed_positions(character, clip, time), character.weights,
                                    skinning_palette(character.skeleton, pose)),
                       {}});
   }

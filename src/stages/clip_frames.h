@@ -7,7 +7,8 @@
 
 namespace skinforge {
 
-/// The skin of a character at some times of a clip, for pictures.
+/// The character at some times of a clip as an engine plays it, morph targets first and linear blending
+/// after, for pictures.
 std::vector<ClipFrame> frames_at(const Character& character, const Clip& clip,
                                  const std::vector<double>& times);
 

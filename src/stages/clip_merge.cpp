@@ -5,9 +5,8 @@
 #include <algorithm>
 
 namespace skinforge {
-namespace {
 
-std::string free_name(const Character& character, const std::string& wanted) {
+std::string free_clip_name(const Character& character, const std::string& wanted) {
   const auto is_taken = [&](const std::string& name) {
     return std::any_of(character.clips.begin(), character.clips.end(),
                        [&](const Clip& c) { return c.name == name; });
@@ -16,8 +15,6 @@ std::string free_name(const Character& character, const std::string& wanted) {
   for (int n = 2; is_taken(name); ++n) name = fmt::format("{}_{}", wanted, n);
   return name;
 }
-
-}  // namespace
 
 void merge_clips(Character& character, const Character& other, const std::string& place, IssueSink& issues) {
   std::size_t unmatched = 0;
@@ -36,7 +33,7 @@ void merge_clips(Character& character, const Character& other, const std::string
               [](const JointTracks& a, const JointTracks& b) { return a.joint < b.joint; });
     clip.joints = std::move(matched);
     clip.morphs.clear();
-    clip.name = free_name(character, clip.name);
+    clip.name = free_clip_name(character, clip.name);
     character.clips.push_back(std::move(clip));
   }
   if (unmatched > 0)

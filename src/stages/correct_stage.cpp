@@ -24,7 +24,7 @@ class Correct final : public Stage {
 
   StageInfo info() const override {
     StageInfo info{
-        .name = "correct", .version = 1, .reads = {names_.textured()}, .writes = {names_.correctives()}};
+        .name = "correct", .version = 2, .reads = {names_.textured()}, .writes = {names_.correctives()}};
     for (const ClipRequest& clip : clips_) info.reads.push_back(names_.clip(clip.name));
     if (options_.method == RecipeDeform::Context) {
       info.reads.push_back(names_.examples(base_));
@@ -48,6 +48,10 @@ class Correct final : public Stage {
     if (options_.method == RecipeDeform::Context) {
       expect_same(character, in.get<Character>(names_.character(base_)));
       request.examples = in.get<std::vector<PosedShape>>(names_.examples(base_));
+      request.with_rest = options_.rest;
+      request.kernel =
+          options_.kernel == RecipeKernel::Gaussian ? RadialKernel::Gaussian : RadialKernel::Linear;
+      request.joints = options_.joints;
     }
     out.put(names_.correctives(), bake_character(character, request, "result", issues));
   }

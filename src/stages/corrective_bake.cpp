@@ -7,6 +7,7 @@
 
 #include "animation/sampling.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "io/written_weights.h"
 
 namespace skinforge {
@@ -18,6 +19,15 @@ std::vector<Vec3> float_positions(const std::vector<Vec3>& positions) {
   std::vector<Vec3> rounded;
   for (const Vec3& p : positions) rounded.push_back(p.cast<float>().cast<double>());
   return rounded;
+}
+
+struct FramePlace {
+  std::size_t clip;
+  double time;
+};
+
+PosedBones bones_at(const Character& character, const FramePlace& place) {
+  return posed_bones(character.skeleton, sample(character.skeleton, character.clips[place.clip], place.time));
 }
 
 /// Every frame of every clip, one list.
@@ -32,17 +42,42 @@ class Frames {
   }
   std::size_t size() const { return places_.size(); }
   std::size_t first(std::size_t clip) const { return first_[clip]; }
-  double time(std::size_t i) const { return places_[i].second; }
-  PosedBones bones(std::size_t i) const {
-    return posed_bones(character_.skeleton,
-                       sample(character_.skeleton, character_.clips[places_[i].first], places_[i].second));
+  double time(std::size_t i) const { return places_[i].time; }
+  PosedBones bones(std::size_t i) const { return bones_at(character_, places_[i]); }
+
+  /// The frames that have another one of the same clip behind them.
+  std::vector<std::size_t> with_next() const {
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i + 1 < places_.size(); ++i)
+      if (places_[i].clip == places_[i + 1].clip) all.push_back(i);
+    return all;
+  }
+  /// Half way from a frame to the next.
+  PosedBones bones_after(std::size_t i) const {
+    return bones_at(character_, {places_[i].clip, (places_[i].time + places_[i + 1].time) / 2});
   }
 
  private:
   const Character& character_;
-  std::vector<std::pair<std::size_t, double>> places_;  ///< clip and time
-  std::vector<std::size_t> first_;
+  std::vector<FramePlace> places_;
+  std::vector<std::size_t> first_;  ///< per clip, and the end
 };
+
+// Largest error half way between keys, where players mix the weights of both.
+double error_between_keys(const Frames& frames, const Correctives& baked, const Deformer& deformer,
+                          std::span<const Vec3> rest, const SkinWeights& written) {
+  const std::vector<std::size_t> keys = frames.with_next();
+  const auto frame = [&](std::size_t i) {
+    const PosedBones bones = frames.bones_after(keys[i]);
+    return CorrectiveFrame{bones.palette, deformer(bones)};
+  };
+  const auto blend = [&](std::size_t i) {
+    std::vector<double> row = baked.weights[keys[i]];
+    for (std::size_t t = 0; t < row.size(); ++t) row[t] = (row[t] + baked.weights[keys[i] + 1][t]) / 2;
+    return row;
+  };
+  return replay_error(rest, written, baked.targets, keys.size(), frame, blend);
+}
 
 // A target of the whole mesh as one of each part. A vertex that several parts share moves in each of them.
 std::vector<MorphTarget> by_part(const PolygonMesh& mesh, const std::vector<std::vector<Vec3>>& targets,
@@ -101,15 +136,32 @@ std::string driver_json(const Deformer& deformer, const Skeleton& skeleton) {
   return json.dump(1) + "\n";
 }
 
+DeformOptions deform_options(const BakeRequest& request, const Skeleton& skeleton) {
+  DeformOptions options;
+  options.with_rest = request.with_rest;
+  options.kernel = request.kernel;
+  for (const PosedShape& example : request.examples)
+    options.examples.push_back({example.shape, posed_bones(skeleton, example.pose)});
+  for (const std::string& name : request.joints) {
+    const auto joint = skeleton.find(name);
+    if (!joint)
+      throw Error(ExitCode::Usage, fmt::format("correctives: no joint \"{}\"{}", printable(name),
+                                               nearest_hint(name, skeleton.names())));
+    options.joints.push_back(joint->index());
+  }
+  return options;
+}
+
 void report(const BakedCorrectives& baked, const BakeRequest& request, std::size_t count, std::size_t frames,
             double diagonal, const std::string& place, IssueSink& issues) {
   const auto percent = [&](double length) { return diagonal > 0 ? 100 * length / diagonal : 0; };
   issues.note(
       "correctives-baked", place,
-      fmt::format("{}: {} morph targets over {} frames; largest error {:.2g} % of the diagonal ({:.2g} % "
-                  "without them), rms {:.2g} %",
-                  name_of(request.method), count, frames, percent(baked.largest), percent(baked.before),
-                  percent(baked.rms)));
+      fmt::format(
+          "{}: {} morph targets over {} frames; largest error {:.2g} % of the diagonal at keys and {:.2g} % "
+          "between ({:.2g} % without them), rms {:.2g} %",
+          name_of(request.method), count, frames, percent(baked.largest), percent(baked.between),
+          percent(baked.before), percent(baked.rms)));
   if (request.method != DeformMethod::Context && request.enough > 0 &&
       baked.largest > request.enough * diagonal)
     issues.warn(
@@ -146,11 +198,8 @@ BakedCorrectives bake_character(const Character& character, const BakeRequest& r
   const std::vector<Vec3> rest = float_positions(character.mesh.positions);
   const SkinWeights written = written_weights(character.weights, request.influences);
   const bool is_context = request.method == DeformMethod::Context;
-  DeformOptions options;
-  for (const PosedShape& example : request.examples)
-    options.examples.push_back({example.shape, posed_bones(character.skeleton, example.pose)});
   const Deformer deformer(character.mesh, character.skeleton, is_context ? written : character.weights,
-                          request.method, std::move(options), place, issues);
+                          request.method, deform_options(request, character.skeleton), place, issues);
   const Frames frames(character);
   const double diagonal = character.mesh.diagonal();
   const Correctives baked =
@@ -168,6 +217,7 @@ BakedCorrectives bake_character(const Character& character, const BakeRequest& r
                           .before = baked.before,
                           .largest = baked.largest,
                           .rms = baked.rms,
+                          .between = error_between_keys(frames, baked, deformer, rest, written),
                           .by_count = baked.by_count};
   for (std::size_t c = 0; c < character.clips.size(); ++c)
     result.tracks.push_back(tracks_of_clip(frames, c, baked, result.targets));

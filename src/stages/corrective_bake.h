@@ -14,7 +14,11 @@ struct BakeRequest {
   std::size_t targets = 8;                             ///< at most; of Context all examples
   double enough = 1e-4;                                ///< of the diagonal of the bounding box
   std::size_t influences = 4;                          ///< that will be written
-  std::vector<PosedShape> examples = {};                    ///< of Context
+  // Of Context:
+  std::vector<PosedShape> examples = {};
+  bool with_rest = true;  ///< the rest pose is one more example, without change
+  RadialKernel kernel = RadialKernel::Linear;
+  std::vector<std::string> joints = {};  ///< by which poses are compared; empty: all but roots
 };
 
 /// Morph targets and their tracks, ready to be put into the character.
@@ -23,11 +27,12 @@ struct BakedCorrectives {
   std::vector<std::vector<MorphTracks>> tracks;  ///< per clip, the new weights of each part
   std::string driver_json;                  ///< of Context: what computes the weights at run time; else empty
   double before = 0, largest = 0, rms = 0;  ///< metres (`Correctives`)
+  double between = 0;  ///< metres: largest error half way between keys, where players mix the weights
   std::vector<double> by_count;
 
   template <class Archive>
   friend void fields(Archive& a, BakedCorrectives& b) {
-    a(b.targets, b.tracks, b.driver_json, b.before, b.largest, b.rms, b.by_count);
+    a(b.targets, b.tracks, b.driver_json, b.before, b.largest, b.rms, b.between, b.by_count);
   }
 };
 

@@ -1,6 +1,5 @@
-#include "deform/posed_bones.h"
 #include "geometry/quad_pairing.h"
-#include "stages/rigging.h"
+#include "stages/rig_tables.h"
 #include "stages/stages.h"
 
 namespace skinforge {
@@ -16,7 +15,7 @@ class Rig final : public Stage {
     const std::string& input = parameters_.input;
     StageInfo info{.name = "rig",
                    .instance = input,
-                   .version = 1,
+                   .version = 2,
                    .reads = {},
                    .writes = {names_.imported(input), names_.contents(input), names_.examples(input)}};
     for (std::size_t i = 0; i < parameters_.files.size(); ++i) info.reads.push_back(names_.file(input, i));
@@ -29,42 +28,17 @@ class Rig final : public Stage {
     for (const RigFile& file : parameters_.files) {
       key.add("file", file.name);
       key.add_value("role", file.role);
+      key.add_value("is_first", file.is_first);
     }
   }
 
   void run(const StageInput& in, StageOutput& out, IssueSink& issues) const override {
-    RigFiles files;
-    std::vector<InputFile> shapes, poses;
     InputContents contents;
-    for (std::size_t i = 0; i < parameters_.files.size(); ++i) {
-      const std::string artifact = names_.file(parameters_.input, i);
-      InputFile file{parameters_.files[i].name, in.get<Bytes>(artifact), in.digest(artifact)};
-      contents.files.push_back({file.path, file.digest, file.bytes.size()});
-      switch (parameters_.files[i].role) {
-        case RigRole::Model:
-          files.model.push_back(std::move(file));
-          break;
-        case RigRole::Skeleton:
-          files.skeleton.push_back(std::move(file));
-          break;
-        case RigRole::Labels:
-          files.handles = std::move(file);
-          break;
-        case RigRole::Poses:
-          files.poses.push_back(std::move(file));
-          break;
-        case RigRole::ExampleShape:
-          shapes.push_back(std::move(file));
-          break;
-        case RigRole::ExamplePose:
-          poses.push_back(std::move(file));
-          break;
-      }
-    }
-    Rigged rigged = read_rigged(files, parameters_.bind, issues);
+    const Files files = sort_files(in, contents);
+    Rigged rigged = read_rigged(files.rig, parameters_.bind, issues);
     std::vector<PosedShape> examples;
-    for (std::size_t i = 0; i < shapes.size(); ++i)
-      examples.push_back({read_shape(shapes[i], rigged), read_pose(poses[i], rigged)});
+    for (std::size_t i = 0; i < files.shapes.size(); ++i)
+      examples.push_back({read_shape(files.shapes[i].front(), rigged), read_pose(files.poses[i], rigged)});
     rigged.character.name = parameters_.input;
     rigged.character.mesh = recover_quads(rigged.character.mesh);
     contents.joints = rigged.character.skeleton.names();
@@ -75,6 +49,42 @@ class Rig final : public Stage {
   }
 
  private:
+  struct Files {
+    RigFiles rig;
+    std::vector<std::vector<InputFile>> shapes;  ///< of examples; each with the files it names
+    std::vector<InputFile> poses;                ///< of examples
+  };
+  Files sort_files(const StageInput& in, InputContents& contents) const {
+    Files files;
+    for (std::size_t i = 0; i < parameters_.files.size(); ++i) {
+      const RigFile& entry = parameters_.files[i];
+      const std::string artifact = names_.file(parameters_.input, i);
+      InputFile file{entry.name, in.get<Bytes>(artifact), in.digest(artifact)};
+      contents.files.push_back({file.path, file.digest, file.bytes.size()});
+      list_of(entry, files).push_back(std::move(file));
+    }
+    return files;
+  }
+  static std::vector<InputFile>& list_of(const RigFile& entry, Files& files) {
+    switch (entry.role) {
+      case RigRole::Skeleton:
+        return files.rig.skeleton;
+      case RigRole::HandleFile:
+        return files.rig.handles;
+      case RigRole::Clips:
+        if (entry.is_first) files.rig.clips.emplace_back();
+        return files.rig.clips.back();
+      case RigRole::ExampleShape:
+        if (entry.is_first) files.shapes.emplace_back();
+        return files.shapes.back();
+      case RigRole::ExamplePose:
+        return files.poses;
+      case RigRole::Model:
+        break;
+    }
+    return files.rig.model;
+  }
+
   ArtifactNames names_;
   RigParameters parameters_;
 };

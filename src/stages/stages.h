@@ -30,10 +30,11 @@ StagePointer make_import_stage(const ArtifactNames& names, ImportParameters para
 
 /// file:* -> imported:<input>, contents, examples:<input>: an input whose skin is made here takes this in the
 /// place of the import stage.
-enum class RigRole : std::uint8_t { Model, Skeleton, Labels, Poses, ExampleShape, ExamplePose };
+enum class RigRole : std::uint8_t { Model, Skeleton, HandleFile, Clips, ExampleShape, ExamplePose };
 struct RigFile {
   std::string name;
   RigRole role = RigRole::Model;
+  bool is_first = true;  ///< false: a file that the one before names (buffers, images)
 };
 struct RigParameters {
   std::string input;

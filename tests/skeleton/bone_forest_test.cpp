@@ -85,5 +85,33 @@ TEST(BoneRig, PlaysFramesAsForwardKinematicsDoes) {
               kRounding);
 }
 
+// The same bones with joints that carry bind rotations of their own, as those of a model do: frames are in
+// model axes of the bind pose, so they mean the same.
+TEST(BoneRig, AxesOfJointsDoNotMatter) {
+  const BoneForest forest = make_bone_forest(two_trees());
+  BoneRig rig = make_bone_rig(forest);
+  Quat above = Quat::Identity();
+  for (Joint& joint : rig.skeleton.joints) {
+    Affine3 model_from_joint = joint.joint_from_model.inverse();
+    above = above * Quat(Eigen::AngleAxisd(0.7, Vec3(2, -1, 2) / 3));
+    model_from_joint.linear() = above.toRotationMatrix();
+    joint.joint_from_model = model_from_joint.inverse();
+    const Affine3 parent =
+        joint.parent.is_valid() ? rig.skeleton[joint.parent].joint_from_model : Affine3::Identity();
+    const Affine3 local = parent * model_from_joint;
+    joint.bind.translation = local.translation();
+    joint.bind.rotation = Quat(local.rotation());
+  }
+  const std::vector<Quat> frame{quarter_turn_z(), Quat(Eigen::AngleAxisd(1, Vec3(1, 2, 2) / 3)),
+                                quarter_turn_z()};
+  Pose pose = bind_pose(rig.skeleton);
+  const std::vector<Quat> local = local_rotations(rig, frame);
+  for (std::size_t j = 0; j < pose.size(); ++j) pose[j].rotation = local[j];
+  const auto palette = skinning_palette(rig.skeleton, pose);
+  const auto motion = forward_kinematics(forest, frame);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_LT((palette[rig.joint_of_bone[k].index()].matrix() - motion[k].matrix().matrix()).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace skinforge

@@ -7,7 +7,7 @@
 #include "io/export.h"
 #include "skinning/linear_blend.h"
 #include "stages/corrective_bake.h"
-#include "stages/rigging.h"
+#include "stages/rig_tables.h"
 #include "testing/assets.h"
 #include "testing/gltf_evaluator.h"
 #include "testing/temporary_folder.h"
@@ -24,10 +24,12 @@ InputFile course_file(const std::string& name) {
 Rigged course_character(const std::string& folder, std::size_t step) {
   RigFiles files{.model = {course_file(folder + "/rest.obj")},
                  .skeleton = {course_file(folder + "/skeleton.tgf")}};
-  files.handles = course_file(folder + "/handles.dmat");
-  files.poses = {course_file(folder + "/pose.dmat")};
+  files.handles = {course_file(folder + "/handles.dmat")};
+  files.clips = {{course_file(folder + "/pose.dmat")}};
+  RecipeBind bind;
+  bind.handles = RecipeHandles::Labels;
   IssueSink issues;
-  Rigged rigged = read_rigged(files, RecipeBind(), issues);
+  Rigged rigged = read_rigged(files, bind, issues);
   for (JointTracks& tracks : rigged.character.clips[0].joints) {
     QuatTrack kept;
     for (std::size_t i = 0; i < tracks.rotation.times.size(); i += step) {
