@@ -1,12 +1,12 @@
 #include "deform/correctives.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "base/parallel.h"
+#include "deform/morph_basis.h"
 #include "deform/unposing.h"
 #include "skinning/linear_blend.h"
 
@@ -14,8 +14,6 @@ namespace skinforge {
 namespace {
 
 constexpr std::size_t kMostNumbers = std::size_t{1} << 26;  // ours: 512 MB of offsets at once
-constexpr double kNoise =
-    1e-7;  // ours: a target that moves nothing by more than this share of the largest one
 
 double as_float(double x) {
   return static_cast<double>(static_cast<float>(x));
@@ -70,7 +68,6 @@ class Baker {
     return unpose(rest_, frame.goal, weights_, frame.palette);
   }
 
-  // Left singular vectors of the matrix of offsets, by the small Gram matrix of frames.
   void find_targets() {
     const std::size_t room = std::max(kMostNumbers / (3 * rest_.size()), 2 * options_.targets);
     const std::size_t basis = std::min({count_, options_.basis, room});
@@ -78,14 +75,9 @@ class Baker {
     parallel_for(basis, [&](std::size_t b) {
       offset.col(static_cast<Eigen::Index>(b)) = as_column(unposed(b * count_ / basis).offsets);
     });
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(offset.transpose() * offset);
-    const double strongest = std::sqrt(std::max(modes.eigenvalues()[modes.eigenvalues().size() - 1], 0.0));
-    for (std::size_t t = 0; t < std::min(options_.targets, basis); ++t) {
-      const Eigen::Index column = static_cast<Eigen::Index>(basis - 1 - t);
-      const double strength = std::sqrt(std::max(modes.eigenvalues()[column], 0.0));
-      if (strength <= kNoise * strongest) break;
-      add_target(offset * (modes.eigenvectors().col(column)));
-    }
+    const MorphBasis found = find_morph_basis(offset, options_.targets);
+    rows_ = found.rows;
+    for (Eigen::Index t = 0; t < found.targets.cols(); ++t) add_target(found.targets.col(t));
   }
 
   // Rounded, so that weights are fitted to what files hold.
@@ -98,7 +90,7 @@ class Baker {
     const auto n = static_cast<Eigen::Index>(result_.targets.size());
     Eigen::MatrixXd gram(n, n);
     for (Eigen::Index a = 0; a < n; ++a)
-      for (Eigen::Index b = 0; b < n; ++b) gram(a, b) = column(a).dot(column(b));
+      for (Eigen::Index b = 0; b < n; ++b) gram(a, b) = column(a).dot(rows_.cwiseProduct(column(b)));
     const Eigen::LDLT<Eigen::MatrixXd> factor(gram);
     result_.weights.resize(count_);
     std::vector<std::size_t> damped(count_, 0);
@@ -106,7 +98,8 @@ class Baker {
       const Unposed frame = unposed(i);
       damped[i] = frame.damped.size();
       Eigen::VectorXd right(n);
-      for (Eigen::Index t = 0; t < n; ++t) right[t] = column(t).dot(as_column(frame.offsets));
+      const Eigen::VectorXd weighted = rows_.cwiseProduct(as_column(frame.offsets));
+      for (Eigen::Index t = 0; t < n; ++t) right[t] = column(t).dot(weighted);
       const Eigen::VectorXd weights = n == 0 ? right : Eigen::VectorXd(factor.solve(right));
       result_.weights[i].assign(weights.data(), weights.data() + n);
     });
@@ -168,6 +161,7 @@ class Baker {
   std::size_t count_;
   const std::function<CorrectiveFrame(std::size_t)>& frame_;
   CorrectiveOptions options_;
+  Eigen::VectorXd rows_;  ///< weights of coordinates in least squares
   Correctives result_;
 };
 

@@ -41,7 +41,7 @@ double replay_error(std::span<const Vec3> rest, const SkinWeights& weights,
                     const std::function<std::vector<double>(std::size_t)>& blend);
 
 /// The few targets that lose least: goals are unposed against `weights` (those that will be written, after
-/// cut and rounding), and the offsets of all frames decomposed by singular values; weights are the least
+/// cut and rounding), and the offsets of all frames decomposed (`find_morph_basis`); weights are the least
 /// squares coefficients of each frame. `frame(i)`: called for i in [0, count), possibly twice. Zero weights
 /// give rest. Cost: frames^2 * vertices for the decomposition.
 Correctives bake_correctives(std::span<const Vec3> rest, const SkinWeights& weights, std::size_t count,

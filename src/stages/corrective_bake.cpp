@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "animation/sampling.h"
@@ -39,11 +40,16 @@ class Frames {
       for (const double time : corrective_times(character.clips[c])) places_.push_back({c, time});
     }
     first_.push_back(places_.size());
+    find_distinct();
   }
   std::size_t size() const { return places_.size(); }
   std::size_t first(std::size_t clip) const { return first_[clip]; }
   double time(std::size_t i) const { return places_[i].time; }
-  PosedBones bones(std::size_t i) const { return bones_at(character_, places_[i]); }
+
+  /// Clips repeat poses: the different ones, and which of them each frame shows.
+  std::size_t distinct_count() const { return distinct_.size(); }
+  std::size_t distinct(std::size_t i) const { return which_[i]; }
+  PosedBones distinct_bones(std::size_t d) const { return bones_at(character_, places_[distinct_[d]]); }
 
   /// The frames that have another one of the same clip behind them.
   std::vector<std::size_t> with_next() const {
@@ -58,9 +64,23 @@ class Frames {
   }
 
  private:
+  void find_distinct() {
+    std::map<std::vector<double>, std::size_t> seen;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      std::vector<double> numbers;
+      for (const Affine3& matrix : bones_at(character_, places_[i]).palette)
+        numbers.insert(numbers.end(), matrix.data(), matrix.data() + matrix.matrix().size());
+      const auto [known, is_new] = seen.try_emplace(std::move(numbers), distinct_.size());
+      if (is_new) distinct_.push_back(i);
+      which_.push_back(known->second);
+    }
+  }
+
   const Character& character_;
   std::vector<FramePlace> places_;
-  std::vector<std::size_t> first_;  ///< per clip, and the end
+  std::vector<std::size_t> first_;     ///< per clip, and the end
+  std::vector<std::size_t> distinct_;  ///< a frame of each different pose
+  std::vector<std::size_t> which_;     ///< per frame, index into `distinct_`
 };
 
 // Largest error half way between keys, where players mix the weights of both.
@@ -72,8 +92,9 @@ double error_between_keys(const Frames& frames, const Correctives& baked, const 
     return CorrectiveFrame{bones.palette, deformer(bones)};
   };
   const auto blend = [&](std::size_t i) {
-    std::vector<double> row = baked.weights[keys[i]];
-    for (std::size_t t = 0; t < row.size(); ++t) row[t] = (row[t] + baked.weights[keys[i] + 1][t]) / 2;
+    std::vector<double> row = baked.weights[frames.distinct(keys[i])];
+    const std::vector<double>& next = baked.weights[frames.distinct(keys[i] + 1)];
+    for (std::size_t t = 0; t < row.size(); ++t) row[t] = (row[t] + next[t]) / 2;
     return row;
   };
   return replay_error(rest, written, baked.targets, keys.size(), frame, blend);
@@ -108,7 +129,7 @@ std::vector<MorphTracks> tracks_of_clip(const Frames& frames, std::size_t clip, 
   MorphTracks track;
   for (std::size_t i = frames.first(clip); i < frames.first(clip + 1); ++i) {
     track.weights.times.push_back(frames.time(i));
-    track.weights.values.push_back(baked.weights[i]);
+    track.weights.values.push_back(baked.weights[frames.distinct(i)]);
   }
   std::vector<MorphTracks> tracks;
   for (const MorphTarget& target : targets) {
@@ -155,13 +176,12 @@ DeformOptions deform_options(const BakeRequest& request, const Skeleton& skeleto
 void report(const BakedCorrectives& baked, const BakeRequest& request, std::size_t count, std::size_t frames,
             double diagonal, const std::string& place, IssueSink& issues) {
   const auto percent = [&](double length) { return diagonal > 0 ? 100 * length / diagonal : 0; };
-  issues.note(
-      "correctives-baked", place,
-      fmt::format(
-          "{}: {} morph targets over {} frames; largest error {:.2g} % of the diagonal at keys and {:.2g} % "
-          "between ({:.2g} % without them), rms {:.2g} %",
-          name_of(request.method), count, frames, percent(baked.largest), percent(baked.between),
-          percent(baked.before), percent(baked.rms)));
+  issues.note("correctives-baked", place,
+              fmt::format("{}: {} morph targets over {} different frames; largest error {:.2g} % of the "
+                          "diagonal at keys and {:.2g} % "
+                          "between ({:.2g} % without them), rms {:.2g} %",
+                          name_of(request.method), count, frames, percent(baked.largest),
+                          percent(baked.between), percent(baked.before), percent(baked.rms)));
   if (request.method != DeformMethod::Context && request.enough > 0 &&
       baked.largest > request.enough * diagonal)
     issues.warn(
@@ -203,11 +223,11 @@ BakedCorrectives bake_character(const Character& character, const BakeRequest& r
   const Frames frames(character);
   const double diagonal = character.mesh.diagonal();
   const Correctives baked =
-      is_context ? example_correctives(rest, written, deformer, frames.size(),
-                                       [&](std::size_t i) { return frames.bones(i); })
-                 : bake_correctives(rest, written, frames.size(),
+      is_context ? example_correctives(rest, written, deformer, frames.distinct_count(),
+                                       [&](std::size_t i) { return frames.distinct_bones(i); })
+                 : bake_correctives(rest, written, frames.distinct_count(),
                                     [&](std::size_t i) {
-                                      const PosedBones bones = frames.bones(i);
+                                      const PosedBones bones = frames.distinct_bones(i);
                                       return CorrectiveFrame{bones.palette, deformer(bones)};
                                     },
                                     {.targets = request.targets, .enough = request.enough * diagonal});
@@ -227,7 +247,7 @@ BakedCorrectives bake_character(const Character& character, const BakeRequest& r
         fmt::format("{} vertices in frames have a nearly singular blended matrix (half turns against each "
                     "other), which no morph target can correct",
                     baked.damped));
-  report(result, request, baked.targets.size(), frames.size(), diagonal, place, issues);
+  report(result, request, baked.targets.size(), frames.distinct_count(), diagonal, place, issues);
   return result;
 }
 
