@@ -29,6 +29,7 @@ class Correct final : public Stage {
     if (options_.method == RecipeDeform::Context) {
       info.reads.push_back(names_.examples(base_));
       info.reads.push_back(names_.character(base_));
+      info.reads.push_back(names_.surface());
     }
     return info;
   }
@@ -46,8 +47,10 @@ class Correct final : public Stage {
                         .enough = options_.enough,
                         .influences = influences_};
     if (options_.method == RecipeDeform::Context) {
-      expect_same(character, in.get<Character>(names_.character(base_)));
+      SF_EXPECT(character.skeleton.names() == in.get<Character>(names_.character(base_)).skeleton.names());
       request.examples = in.get<std::vector<PosedShape>>(names_.examples(base_));
+      for (PosedShape& example : request.examples)
+        example.shape = by_result(example.shape, in.get<SurfaceResult>(names_.surface()));
       request.with_rest = options_.rest;
       request.kernel =
           options_.kernel == RecipeKernel::Gaussian ? RadialKernel::Gaussian : RadialKernel::Linear;
@@ -57,10 +60,11 @@ class Correct final : public Stage {
   }
 
  private:
-  // Examples count vertices and joints as the base does; without operations the result must, too.
-  static void expect_same(const Character& result, const Character& base) {
-    SF_EXPECT(result.skeleton.names() == base.skeleton.names());
-    SF_EXPECT(result.mesh.positions == base.mesh.positions);
+  // Examples count vertices as the base does, the result as its faces name them.
+  static std::vector<Vec3> by_result(const std::vector<Vec3>& shape, const SurfaceResult& surface) {
+    std::vector<Vec3> ordered;
+    for (const ResultVertex& v : surface.joined.vertices) ordered.push_back(shape[v.vertex.index()]);
+    return ordered;
   }
 
   ArtifactNames names_;
