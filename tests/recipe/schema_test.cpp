@@ -99,8 +99,8 @@ TEST(RecipeSchema, EveryPropertyIsExplained) {
         is_inherited || is_side || place.ends_with("/voxel") || place.ends_with("/radius");
     EXPECT_TRUE(!(is_number || type == "boolean") || property.contains("default") || has_no_default);
   });
-  EXPECT_EQ(count, 92);  // 10 of the recipe, 5 + 2 + 7 of an input, 7 + 4 + 2 of an operation, twice 8 + 2 + 4 of its
-                         // surface, 8 + 8 of the animation, 4 + 2 and 5 of the rest
+  EXPECT_EQ(count, 98);  // 10 of the recipe, 5 + 2 + 8 + 2 of an input, 7 + 4 + 2 of an operation, twice 8 +
+                         // 2 + 4 of its surface, 8 + 8 of the animation, 7 + 2 and 5 of the rest
 }
 
 struct Case {
@@ -146,8 +146,18 @@ TEST(RecipeSchema, AgreesWithTheParser) {
       {"bind", head(R"("recipe_version": 1, "name": "x", "base": "a",
                "inputs": {"a": {"file": "a.obj", "bind": {"skeleton": "a.tgf", "method": "heat", "resolution": 64}}})"),
        true},
-      {"bind without skeleton", head(R"("recipe_version": 1, "name": "x", "base": "a",
-               "inputs": {"a": {"file": "a.obj", "bind": {"method": "heat"}}})")},
+      {"bind with its own skeleton", head(R"("recipe_version": 1, "name": "x", "base": "a",
+               "inputs": {"a": {"file": "a.obj", "bind": {"method": "heat"}}})"),
+       true},
+      {"painted handles",
+       head(R"("recipe_version": 1, "name": "x", "base": "a", "inputs": {"a": {"file": "a.obj",
+               "bind": {"handles": {"image": "l.png", "colors": {"Head": "#ff8000"}}}}})"),
+       true},
+      {"painted without colors",
+       head(R"("recipe_version": 1, "name": "x", "base": "a", "inputs": {"a": {"file": "a.obj",
+               "bind": {"handles": {"image": "l.png", "colors": {}}}}})")},
+      {"colour word", head(R"("recipe_version": 1, "name": "x", "base": "a", "inputs": {"a": {"file": "a.obj",
+               "bind": {"handles": {"image": "l.png", "colors": {"Head": "red"}}}}})")},
       {"correctives", member(R"("correctives": {"method": "dqs", "targets": 4, "enough": 0})"), true},
       {"correctives without method", member(R"("correctives": {"targets": 4})")},
       {"no targets", member(R"("correctives": {"method": "dqs", "targets": 0})")},
