@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "animation/sampling.h"
 #include "cli/commands.h"
@@ -47,15 +48,16 @@ class Comparison {
       std::vector<Vec3> posed = deformer(bones_[i]);
       if (rows_.empty()) linear_.push_back(posed);
       std::vector<double> distance = distances(posed, linear_[i]);
-      for (const double d : distance) {
-        measures.largest = std::max(measures.largest, d);
-        sum += d;
-      }
+      const double largest = *std::max_element(distance.begin(), distance.end());
       const double volume = volume_of(character_.mesh, posed) / rest_volume_;
+      sum += std::accumulate(distance.begin(), distance.end(), 0.0);
+      measures.largest = std::max(measures.largest, largest);
       measures.least_volume = std::min(measures.least_volume, volume);
       measures.most_volume = std::max(measures.most_volume, volume);
       if (!is_pictured(i)) continue;
-      drawn.frames.push_back({times_[i], std::move(posed)});
+      drawn.frames.push_back({times_[i], std::move(posed), {}});
+      drawn.captions.push_back(
+          fmt::format("{:.2f} s  volume {:.3f}  from lbs {:.2f} %", times_[i], volume, 100 * largest));
       if (!rows_.empty()) drawn.heat.push_back(std::move(distance));
     }
     measures.mean = sum / static_cast<double>(times_.size() * character_.mesh.vertex_count());

@@ -57,6 +57,8 @@ Raster methods_picture(const Subject& subject, std::span<const MethodFrames> met
       drawing.vertex_colors = colors;
       Raster picture = draw(subject, {.positions = method.frames[i].positions}, view, drawing);
       if (i == 0) label(picture, kMargin, kMargin, method.title, {.scale = 2});
+      if (i < method.captions.size())
+        label(picture, kMargin, options.height - 3 * kMargin, method.captions[i], {.scale = 1});
       pictures.push_back(std::move(picture));
     }
   return tile(pictures, {.columns = static_cast<int>(columns), .gap = 2});

@@ -22,6 +22,7 @@ Raster joint_weights_picture(const Subject& subject, const SkinWeights& weights,
 struct MethodFrames {
   std::string title;
   std::vector<ClipFrame> frames = {};
+  std::vector<std::string> captions = {};  ///< one a frame, written below it; may be empty
   /// [frame][#V], in [0, 1]: drawn as heat over the surface; empty: the materials.
   std::vector<std::vector<double>> heat = {};
 };
