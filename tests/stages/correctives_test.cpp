@@ -111,6 +111,21 @@ TEST(Correctives, HumanClip) {
         5e-4);
 }
 
+// The clip as it is, 394 frames of which 154 differ, measured half way between keys as well.
+TEST(Correctives, WholeClipOfTheHuman) {
+  SKINFORGE_NEEDS_SHARED();
+  const Rigged human = course_character("context-aware", 1);
+  const double diagonal = human.character.mesh.diagonal();
+  for (const DeformMethod method : {DeformMethod::DualQuaternion, DeformMethod::Poisson}) {
+    IssueSink issues;
+    const BakedCorrectives baked = bake_character(
+        human.character, {.method = method, .targets = 16, .enough = 0, .influences = 8}, "test", issues);
+    EXPECT_LT(baked.largest, 5e-4 * diagonal) << name_of(method);
+    EXPECT_LT(baked.between, 5e-4 * diagonal) << name_of(method);
+    EXPECT_EQ(baked.tracks[0][0].weights.times.size(), 394u);
+  }
+}
+
 // Morph targets are the deltas, the weights a_j: at the pose of an example the file shows the example.
 TEST(Correctives, ExamplesComeBackFromTheFile) {
   SKINFORGE_NEEDS_SHARED();
