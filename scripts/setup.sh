@@ -2,12 +2,12 @@
 # Installs what is missing (Debian 12, as root or with sudo); says and does nothing when all is there.
 #   scripts/setup.sh [--node]
 # Without options: the packages of scripts/packages.txt. --node: what only the tests need too, nodejs and npm
-# (unless some node and npm are installed) and from npm the Khronos validator and a second FBX reader, in
+# (unless some node and npm are installed) and from npm the Khronos validator, a second FBX reader and two optimisers, in
 # build/node. Those are optional: without them tests skip.
 set -euo pipefail
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 node_folder=$repository/build/node
-node_packages=(gltf-validator@2.0.0-dev.3.10 fbx2gltf@0.9.7)
+node_packages=(gltf-validator@2.0.0-dev.3.10 fbx2gltf@0.9.7 @gltf-transform/cli@4.5.1 gltfpack@1.3)
 
 warn() { printf '\n********** setup: %s **********\n\n' "$*" >&2; }
 
@@ -52,7 +52,9 @@ install_node() {
 
 install_node_packages() {
   local fbx2gltf=$node_folder/node_modules/fbx2gltf/bin/Linux/FBX2glTF
-  [ -x "$fbx2gltf" ] && [ -d "$node_folder/node_modules/gltf-validator" ] && return 0
+  local bin=$node_folder/node_modules/.bin
+  [ -x "$fbx2gltf" ] && [ -d "$node_folder/node_modules/gltf-validator" ] && [ -e "$bin/gltfpack" ] &&
+    [ -e "$bin/gltf-transform" ] && return 0
   mkdir -p "$node_folder"
   timeout 300 npm install --prefix "$node_folder" --no-save --no-audit --no-fund --loglevel=error \
     "${node_packages[@]}" >&2 && chmod +x "$fbx2gltf" # it comes without
@@ -66,6 +68,6 @@ else
 fi
 if [ "${1:-}" = --node ]; then
   if ! install_node || ! install_node_packages; then
-    warn "no npm packages: tests against gltf-validator and fbx2gltf are skipped"
+    warn "no npm packages: tests against gltf-validator, fbx2gltf, gltf-transform and gltfpack are skipped"
   fi
 fi

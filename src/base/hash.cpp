@@ -67,6 +67,12 @@ void Hasher::add_bytes(std::string_view name, std::span<const std::byte> value, 
   if (state_->log) state_->log->push_back({std::string(name), std::move(readable)});
 }
 
+std::string Hasher::list_text(std::span<const std::string> words) {
+  std::string text = "[";
+  for (const std::string& word : words) text += (text.size() > 1 ? ", " : "") + printable(word);
+  return text + "]";
+}
+
 void Hasher::add(std::string_view name, std::span<const std::byte> value) {
   add_bytes(name, value, state_->log ? "sha256:" + sha256(value).hex().substr(0, 12) : std::string());
 }

@@ -37,7 +37,8 @@ Digest sha256(std::span<const std::byte> bytes);
 /// A field as it went into a Hasher, for people to read.
 struct HashedField {
   std::string name;
-  std::string value;  ///< a text or number as it is; anything else as "sha256:" and 12 digits of its digest
+  std::string value;  ///< a text, list of texts or number as it is; anything else as "sha256:" and 12 digits
+                      ///< of its digest
   auto operator<=>(const HashedField&) const = default;
 };
 
@@ -60,6 +61,8 @@ class Hasher {
     const Bytes bytes = to_bytes(value);
     if constexpr (std::is_arithmetic_v<T>)
       add_bytes(name, bytes, fmt::format("{}", value));
+    else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+      add_bytes(name, bytes, list_text(value));
     else
       add(name, std::span<const std::byte>(bytes));
   }
@@ -69,6 +72,7 @@ class Hasher {
   Digest finish();
 
  private:
+  static std::string list_text(std::span<const std::string> words);
   void add_bytes(std::string_view name, std::span<const std::byte> value, std::string readable);
   struct State;
   std::unique_ptr<State> state_;

@@ -3,13 +3,20 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "base/text.h"
+#include "base/version.h"
 #include "cli/commands.h"
+#include "cli/recipe_tasks.h"
 #include "cli/session.h"
 #include "pipeline/publish.h"
+#include "recipe/recipe_files.h"
+#include "report/build_verdict.h"
 #include "report/report_json.h"
 #include "stages/build.h"
+#include "stages/expect_stage.h"
+#include "stages/stage_settings.h"
 
 namespace skinforge {
 using nlohmann::json;
@@ -19,34 +26,27 @@ namespace {
 // How one recipe of the command line went.
 struct Outcome {
   std::string recipe;
+  std::string variant;
   std::string name;
   fs::path folder;
   ExitCode code = ExitCode::Ok;
   std::string error;
+  std::string place;  // in the recipe, "centaur.json:12:9", of what failed; empty where the error says it
+  double seconds = 0;
   std::vector<StageResult> stages;
   std::vector<PublishedFile> files;
 };
 
-fs::path output_folder(const CommandLine& line, const Recipe& recipe) {
+fs::path output_folder(const CommandLine& line, const Recipe& recipe, bool is_alone) {
   if (line.out.empty()) return fs::path("out") / recipe.name;
-  return line.recipes.size() == 1 ? fs::path(line.out) : fs::path(line.out) / recipe.name;
+  return is_alone ? fs::path(line.out) : fs::path(line.out) / recipe.name;
 }
 
-// Files that a build reads and must not overwrite, those of recipes inside the recipe too.
-void collect_inputs(const Recipe& recipe, std::vector<fs::path>& files) {
-  files.push_back(recipe.path);
-  for (const RecipeInput& input : recipe.inputs) {
-    files.push_back(input.file.resolved);
-    for (const RecipePath& clips : input.clips) files.push_back(clips.resolved);
-    if (input.bind)
-      for (const RecipePath& path : {input.bind->skeleton, input.bind->handle_file})
-        if (!path.text.empty()) files.push_back(path.resolved);
-    if (input.recipe) collect_inputs(*input.recipe, files);
-  }
-  for (const RecipeExample& example : recipe.correctives.examples) {
-    files.push_back(example.shape.resolved);
-    files.push_back(example.pose.resolved);
-  }
+// Files that a build reads and must not overwrite.
+std::vector<fs::path> files_read(const Recipe& recipe) {
+  std::vector<fs::path> files = input_files(recipe), recipes = recipe_files(recipe);
+  files.insert(files.end(), recipes.begin(), recipes.end());
+  return files;
 }
 
 // What each stage cost when it ran, which may have been in an earlier build. A file of its own, so that the
@@ -71,18 +71,31 @@ bool has_run(const std::vector<StageResult>& stages) {
                      [](const auto& s) { return s.status == StageStatus::Ran; });
 }
 
+// Where the recipe names the file that a failed stage reads.
+std::string place_of(const StageResult& failure, const Recipe& recipe) {
+  for (const std::string& artifact : failure.info.reads)
+    if (const auto setting = setting_of_source(artifact)) return recipe.where(*setting);
+  return recipe.where("");
+}
+
+bool has_failed_only_budgets(Session& session) {
+  const auto results = session.engine().results();
+  return std::all_of(results.begin(), results.end(), [](const StageResult& stage) {
+    return stage.status == StageStatus::Hit || stage.status == StageStatus::Ran ||
+           stage.info.name == kExpectStage;
+  });
+}
+
 void build_session(const CommandLine& line, Session& session, Outcome& outcome) {
   bool is_ok = session.import();
   if (is_ok) {
     session.add_grafts();
     is_ok = session.run();
   }
-  if (is_ok) {
-    std::vector<fs::path> inputs;
-    collect_inputs(session.recipe(), inputs);
+  if (is_ok || has_failed_only_budgets(session)) {  // over budget, but there to be looked at
     const auto files = line.preview ? preview_outputs(session.recipe(), line.report)
                                     : outputs(session.recipe(), session.engine(), line.report);
-    outcome.files = publish(session.engine(), files, outcome.folder, inputs);
+    outcome.files = publish(session.engine(), files, outcome.folder, files_read(session.recipe()));
   }
   outcome.stages = session.engine().results();
   const bool wants_timings = is_ok && !line.preview && line.report != ReportLevel::None;
@@ -92,16 +105,19 @@ void build_session(const CommandLine& line, Session& session, Outcome& outcome) 
   if (const auto failure = session.failure()) {
     outcome.code = exit_code(failure);
     outcome.error = failure->error;
+    outcome.place = place_of(*failure, session.recipe());
   }
 }
 
-Outcome build_recipe(const CommandLine& line, const std::string& path, Console& console) {
+Outcome build_recipe(const CommandLine& line, const RecipeTask& task, Console& console, bool is_alone) {
   Outcome outcome;
-  outcome.recipe = path;
+  outcome.recipe = task.recipe;
+  outcome.variant = task.resolved.variant;
   try {
-    Session session(line, path, console);
+    if (task.code != ExitCode::Ok) throw Error(task.code, task.error);
+    Session session(line, task.resolved, console);
     outcome.name = session.recipe().name;
-    outcome.folder = output_folder(line, session.recipe());
+    outcome.folder = output_folder(line, session.recipe(), is_alone);
     build_session(line, session, outcome);
   } catch (const Error& error) {
     outcome.code = error.code();
@@ -134,9 +150,13 @@ json to_json(const Outcome& outcome) {
                      {"sha256", file.digest.hex()},
                      {"size", file.size},
                      {"written", file.was_written}});
-  json result = {{"recipe", outcome.recipe},       {"name", outcome.name},
-                 {"out", outcome.folder.string()}, {"exit_code", static_cast<int>(outcome.code)},
-                 {"files", std::move(files)},      {"stages", to_json(outcome.stages)}};
+  json result = {{"recipe", outcome.recipe},
+                 {"variant", outcome.variant},
+                 {"name", outcome.name},
+                 {"out", outcome.folder.string()},
+                 {"exit_code", static_cast<int>(outcome.code)},
+                 {"files", std::move(files)},
+                 {"stages", to_json(outcome.stages)}};
   if (!outcome.error.empty()) result["error"] = outcome.error;
   return result;
 }
@@ -146,18 +166,65 @@ ExitCode overall(const CommandLine& line, const std::vector<Outcome>& outcomes) 
     if (outcome.code != ExitCode::Ok) return line.keep_going ? ExitCode::SomeFailed : outcome.code;
   return ExitCode::Ok;
 }
+// "base.json:12:9: ..." at the start of a message; false where none stands there.
+bool read_place(const std::string& text, BuildVerdict& verdict) {
+  static const std::regex kPlace(R"(^([^:]+):(\d+):(\d+)(:|$))");
+  std::smatch found;
+  if (!std::regex_search(text, found, kPlace)) return false;
+  verdict.recipe = found[1];
+  verdict.line = std::stoi(found[2]);
+  verdict.column = std::stoi(found[3]);
+  return true;
+}
+
+BuildVerdict verdict_of(const Outcome& outcome) {
+  BuildVerdict verdict;
+  verdict.label = outcome.variant.empty() ? outcome.recipe : outcome.recipe + " " + outcome.variant;
+  verdict.recipe = outcome.recipe;
+  verdict.code = outcome.code;
+  verdict.error = printable(outcome.error);
+  verdict.seconds = outcome.seconds;
+  if (outcome.code != ExitCode::Ok && !read_place(outcome.error, verdict)) read_place(outcome.place, verdict);
+  verdict.stages = outcome.stages.size();
+  for (const StageResult& stage : outcome.stages) {
+    if (stage.status == StageStatus::Hit) ++verdict.hits;
+    if (stage.status == StageStatus::Failed && verdict.stage.empty()) verdict.stage = stage.info.label();
+    for (const Issue& issue : stage.issues)
+      if (issue.severity == Severity::Warning) verdict.warnings.push_back(issue);
+  }
+  return verdict;
+}
+
+void write_for_ci(const CommandLine& line, const std::vector<Outcome>& outcomes) {
+  std::vector<BuildVerdict> verdicts;
+  for (const Outcome& outcome : outcomes) verdicts.push_back(verdict_of(outcome));
+  const auto write = [](const std::string& file, const std::string& text) {
+    if (!file.empty() && !write_file_atomically(file, std::as_bytes(std::span(text))))
+      throw Error(ExitCode::StageFailed, file + ": cannot write this file");
+  };
+  if (!line.junit.empty()) write(line.junit, junit_xml(verdicts));
+  if (!line.sarif.empty()) write(line.sarif, sarif(verdicts, kVersion));
+  if (!line.summary.empty()) write(line.summary, markdown_summary(verdicts));
+  const char* actions = std::getenv("GITHUB_ACTIONS");
+  if (actions && std::string_view(actions) == "true")
+    std::fputs(github_annotations(verdicts).c_str(), stderr);
+}
 }  // namespace
 
 ExitCode build_command(const CommandLine& line, Console& console) {
   std::vector<Outcome> outcomes;
-  for (const std::string& recipe : line.recipes) {
+  std::vector<RecipeTask> tasks = recipe_tasks(line);
+  const bool is_alone = line.recipes.size() == 1 && tasks.size() == 1 && line.shard.empty();
+  for (const RecipeTask& task : tasks) {
     const auto begin = std::chrono::steady_clock::now();
-    outcomes.push_back(build_recipe(line, recipe, console));
+    outcomes.push_back(build_recipe(line, task, console, is_alone));
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    outcomes.back().seconds = seconds.count();
     tell(outcomes.back(), seconds.count(), console);
     if (outcomes.back().code != ExitCode::Ok && !line.keep_going) break;
   }
   const ExitCode code = overall(line, outcomes);
+  write_for_ci(line, outcomes);
   if (line.json) {
     json list = json::array();
     for (const Outcome& outcome : outcomes) list.push_back(to_json(outcome));

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/recipe_tasks.h"
+#include "cli/session.h"
 #include "pipeline/cache.h"
 
 namespace skinforge {
@@ -43,6 +45,60 @@ ExitCode cache_stats_command(const CommandLine& line, Console&) {
   const Cache::Stats stats = Cache(store).stats();
   print_data(line.json ? to_json(stats).dump(2) : text_of(stats, line.cache));
   return ExitCode::Ok;
+}
+
+ExitCode cache_gc_command(const CommandLine& line, Console& console) {
+  if (line.max_size_gb == 0 && line.max_age_days == 0)
+    throw Error(ExitCode::Usage,
+                "cache gc: say what may stay by --max-size or --max-age; cache clear removes all");
+  DiskStore store(line.cache);
+  Cache::CollectOptions options;
+  if (line.max_size_gb > 0) options.max_bytes = static_cast<std::uint64_t>(line.max_size_gb * 1e9);
+  if (line.max_age_days > 0) options.max_age_seconds = line.max_age_days * 86400;
+  const Cache::Collected collected = Cache(store).collect(options);
+  if (line.json)
+    print_data(json{{"entries", collected.entries},
+                    {"results", collected.blobs},
+                    {"bytes", collected.bytes},
+                    {"bytes_left", collected.bytes_left}}
+                   .dump(2));
+  else
+    console.info(fmt::format("{} entries and {} results removed, {}; {} are left", collected.entries,
+                             collected.blobs, readable_size(collected.bytes),
+                             readable_size(collected.bytes_left)));
+  return ExitCode::Ok;
+}
+
+namespace {
+// For each recipe; `what` gives false where there is nothing to do.
+template <class What>
+ExitCode for_each_recipe(const CommandLine& line, const char* done, const char* not_done, Console& console,
+                         const What& what) {
+  DiskStore store(line.cache);
+  Cache cache(store);
+  json list = json::array();
+  for (const RecipeTask& task : recipe_tasks(line)) {
+    if (task.code != ExitCode::Ok) throw Error(task.code, task.error);
+    const bool is_done = what(cache, session_name(task.resolved));
+    list.push_back({{"recipe", task.recipe}, {"variant", task.resolved.variant}, {"done", is_done}});
+    if (is_done)
+      console.info(task.label() + ": " + done);
+    else
+      console.warn(task.label() + ": " + not_done);
+  }
+  if (line.json) print_data(json{{"recipes", std::move(list)}}.dump(2));
+  return ExitCode::Ok;
+}
+}  // namespace
+
+ExitCode cache_pin_command(const CommandLine& line, Console& console) {
+  return for_each_recipe(line, "pinned", "no build of it is in the cache", console,
+                         [](Cache& cache, const std::string& session) { return cache.pin(session); });
+}
+
+ExitCode cache_unpin_command(const CommandLine& line, Console& console) {
+  return for_each_recipe(line, "no longer pinned", "it was not pinned", console,
+                         [](Cache& cache, const std::string& session) { return cache.unpin(session); });
 }
 
 ExitCode cache_verify_command(const CommandLine& line, Console& console) {

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/recipe_tasks.h"
 #include "cli/session.h"
 #include "stages/build.h"
 
@@ -13,8 +14,9 @@ using nlohmann::json;
 namespace {
 // The recipe, its files, its clips, every joint (grafting the skeletons meets them all), and what the cuts
 // leave of the surfaces.
-ExitCode check_recipe(const CommandLine& line, const std::string& path, Console& console, json& result) {
-  Session session(line, path, console);
+ExitCode check_recipe(const CommandLine& line, const RecipeTask& task, Console& console, json& result) {
+  if (task.code != ExitCode::Ok) throw Error(task.code, task.error);
+  Session session(line, task.resolved, console);
   result["name"] = session.recipe().name;
   if (session.import()) {
     session.add_grafts();
@@ -31,17 +33,17 @@ ExitCode check_recipe(const CommandLine& line, const std::string& path, Console&
 ExitCode check_command(const CommandLine& line, Console& console) {
   json list = json::array();
   ExitCode worst = ExitCode::Ok;
-  for (const std::string& path : line.recipes) {
-    json result = {{"recipe", path}};
+  for (const RecipeTask& task : recipe_tasks(line)) {
+    json result = {{"recipe", task.recipe}, {"variant", task.resolved.variant}};
     ExitCode code = ExitCode::Ok;
     try {
-      code = check_recipe(line, path, console, result);
+      code = check_recipe(line, task, console, result);
     } catch (const Error& error) {
       code = error.code();
       result["error"] = error.what();
       console.error(printable(error.what()));
     }
-    if (code == ExitCode::Ok) console.info(path + ": ok");
+    if (code == ExitCode::Ok) console.info(task.label() + ": ok");
     if (worst == ExitCode::Ok) worst = code;
     result["exit_code"] = static_cast<int>(code);
     list.push_back(std::move(result));

@@ -175,6 +175,10 @@ class Parser {
 
   void add_work_options(CLI::App* app) {
     add_cache_option(app);
+    add_jobs_option(app);
+  }
+
+  void add_jobs_option(CLI::App* app) {
     app->add_option("-j,--jobs", line_.jobs, "Threads; the result is the same for any number")
         ->check(CLI::Range(std::size_t{1}, kMaxJobs))
         ->type_name("N")
@@ -191,13 +195,30 @@ class Parser {
   }
 
   void add_recipes(CLI::App* app) {
-    app->add_option("RECIPE", line_.recipes, "Recipe files: .json, .jsonc, .yaml, .yml")
+    app->add_option("RECIPE", line_.recipes, "Recipe files (.json, .jsonc, .yaml, .yml), or folders of them")
         ->required()
         ->type_name("");
+    add_choice_options(app);
+    app->add_option("--shard", line_.shard, "Only the I-th of N equal shares, for several machines")
+        ->type_name("I/N")
+        ->group("Recipes");
+  }
+
+  void add_choice_options(CLI::App* app) {
+    app->add_option("--set", line_.choice.set,
+                    "Set a variable of the recipe, or with a leading / any property: /output/influences=8")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false)
+        ->group("Recipes");
+    app->add_option("--only", line_.choice.only, "Only the cells of the matrix with this value")
+        ->type_name("AXIS=VALUE")
+        ->allow_extra_args(false)
+        ->group("Recipes");
   }
 
   void add_recipe(CLI::App* app) {
     app->add_option("RECIPE", recipe_, "Recipe file")->required()->type_name("");
+    add_choice_options(app);
   }
 
   void add_recipe_verbs() {
@@ -211,8 +232,26 @@ class Parser {
     build->add_flag(
         "--preview", line_.preview,
         "Parts cut, placed, skinned and animated side by side, not joined: NAME-preview.glb in no time");
-    build->add_flag("-k,--keep-going", line_.keep_going,
-                    "Go on with the other recipes when one fails (status 6)");
+    build
+        ->add_flag("-k,--keep-going", line_.keep_going,
+                   "Go on with the other recipes when one fails (status 6)")
+        ->group("Recipes");
+    build->add_flag("--fail-fast", line_.fail_fast, "Stop at the first recipe that fails (default)")
+        ->excludes("--keep-going")
+        ->group("Recipes");
+    build
+        ->add_flag("--retry-failed", line_.retry_failed,
+                   "Run stages again that failed before with the same inputs and parameters")
+        ->group("Recipes");
+    build->add_option("--junit", line_.junit, "Write the verdicts as JUnit XML")
+        ->type_name("FILE")
+        ->group("CI");
+    build->add_option("--sarif", line_.sarif, "Write errors and warnings as SARIF 2.1.0")
+        ->type_name("FILE")
+        ->group("CI");
+    build->add_option("--summary", line_.summary, "Write a summary as Markdown")
+        ->type_name("FILE")
+        ->group("CI");
     add_work_options(build);
 
     CLI::App* check =
@@ -224,6 +263,23 @@ class Parser {
     add_recipes(plan);
     add_report_option(plan);
     add_work_options(plan);
+
+    CLI::App* expand =
+        add_verb(&app_, "expand", "Print the recipe with everything settled, and where each value comes from",
+                 Verb::Expand);
+    add_recipes(expand);
+
+    CLI::App* explain =
+        add_verb(&app_, "explain", "Say what changed since an earlier run, down to the line of the recipe",
+                 Verb::Explain);
+    add_recipe(explain);
+    explain->add_option("STAGE", line_.stage, "One stage and what led to it; without it, all that changed")
+        ->type_name("");
+    explain->add_option("--against", line_.against, "Run to compare with, by its id")
+        ->type_name("RUN")
+        ->default_str("the last; if nothing changed since, the one before");
+    add_report_option(explain);
+    add_work_options(explain);
   }
 
   // What makes a model with a skin of the files that are named.
@@ -351,10 +407,47 @@ class Parser {
   void add_cache_verbs() {
     CLI::App* cache = add_group("cache", "Look after the cache");
     add_cache_option(add_verb(cache, "stats", "Count entries, bytes and saved seconds", Verb::CacheStats));
+    CLI::App* gc = add_verb(cache, "gc", "Remove what was not asked for longest", Verb::CacheGc);
+    add_cache_option(gc);
+    gc->add_option("--max-size", line_.max_size_gb, "Keep at most so much")
+        ->check(CLI::Range(0.0, 1e6).description(""))
+        ->type_name("GB")
+        ->default_str("any");
+    gc->add_option("--max-age", line_.max_age_days, "Remove what was not asked for since")
+        ->check(CLI::Range(0.0, 1e5).description(""))
+        ->type_name("DAYS")
+        ->default_str("any");
+    CLI::App* pin =
+        add_verb(cache, "pin", "Keep what the last build of recipes made from gc", Verb::CachePin);
+    add_recipes(pin);
+    add_cache_option(pin);
+    CLI::App* unpin = add_verb(cache, "unpin", "Take that back", Verb::CacheUnpin);
+    add_recipes(unpin);
+    add_cache_option(unpin);
     add_cache_option(
         add_verb(cache, "verify", "Read everything, remove what is damaged (status 4)", Verb::CacheVerify));
     add_cache_option(add_verb(cache, "clear", "Remove every entry", Verb::CacheClear));
     add_cache_option(add_verb(cache, "path", "Print its folder", Verb::CachePath));
+  }
+
+  void add_diff_verb() {
+    DiffRequest& request = line_.diff;
+    CLI::App* diff = add_verb(
+        &app_, "diff", "Compare two models: structure, surface, weights, every clip (status 5)", Verb::Diff);
+    diff->add_option("A", request.a, "Model to compare with")->required()->type_name("");
+    diff->add_option("B", request.b, "Model to compare")->required()->type_name("");
+    diff->add_option("--threshold", request.thresholds,
+                     "What is still the same: geometry and animation in % of A's diagonal (0.001%, 0.05%), "
+                     "weights (0.01 of 2), duration (0.001 s), structure (none, or any edits)")
+        ->type_name("NAME=LIMIT")
+        ->group("Verdict");
+    diff->add_flag("--accept", request.accept,
+                   "Put B in the place of A, with a note beside it of what changed")
+        ->group("Verdict");
+    diff->add_option("--junit", request.junit, "Write the verdicts as JUnit XML, too")
+        ->type_name("FILE")
+        ->group("Output");
+    add_jobs_option(diff);
   }
 
   void add_other_verbs() {
@@ -363,6 +456,14 @@ class Parser {
     inspect->add_option("FILE", line_.file, "Model: .glb, .gltf, .fbx, .dae, .obj, ...")
         ->required()
         ->type_name("");
+    add_diff_verb();
+    CLI::App* verify =
+        add_verb(&app_, "verify", "Check that a GLB is as it was written, and what it was made of (status 4)",
+                 Verb::Verify);
+    verify->add_option("FILE", line_.file, "A GLB that this tool made")->required()->type_name("");
+    verify->add_option("--recipe", recipe_, "Recipe to compare with: what it asks for, and its files")
+        ->type_name("RECIPE");
+    add_choice_options(verify);
     add_verb(&app_, "schema", "Print the JSON Schema of recipes or of reports", Verb::Schema)
         ->add_option("OF", line_.schema, "recipe or report")
         ->check(CLI::IsMember({"recipe", "report"}).description(""))

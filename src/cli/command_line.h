@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/console.h"
+#include "recipe/resolve.h"
 
 namespace skinforge {
 
@@ -14,13 +15,20 @@ enum class Verb {
   Build,
   Check,
   Plan,
+  Explain,
+  Expand,
   Inspect,
+  Diff,
+  Verify,
   Bind,
   Deform,
   CompareSkinning,
   StageRun,
   StageList,
   CacheStats,
+  CacheGc,
+  CachePin,
+  CacheUnpin,
   CacheVerify,
   CacheClear,
   CachePath,
@@ -49,23 +57,40 @@ struct SkinningRequest {
   double rate_hz = 30;         ///< of .dmat files
 };
 
+/// What `diff` is told.
+struct DiffRequest {
+  std::string a, b;                     ///< model files; A is the reference
+  std::vector<std::string> thresholds;  ///< "animation=0.05%"
+  std::string junit;                    ///< file; empty: none
+  bool accept = false;                  ///< B becomes the reference
+};
+
 /// What the person asked for. Defaults are those that the help prints.
 struct CommandLine {
   Verb verb = Verb::Help;
   bool json = false;
   Verbosity verbosity = Verbosity::Normal;
   std::vector<std::string> recipes;  ///< build, check, plan: one or more; stage: one
-  std::string stage;                 ///< label, stage run
+  RecipeChoice choice;               ///< --set and --only
+  std::string shard;                 ///< "2/5"; empty: all
+  std::string stage;                 ///< label; stage run, explain
+  std::string against;               ///< explain: id of a run; empty: the last, or the one before
   std::string file;                  ///< inspect, bind, deform, compare-skinning
   SkinningRequest skinning;
+  DiffRequest diff;
   std::string out;    ///< empty: out/<name>
   std::string cache;  ///< folder, settled: --cache, $SKINFORGE_CACHE or .skinforge/cache
   std::size_t jobs = 1;
   ReportLevel report{};           ///< as the parser sets it: Full unless asked otherwise
   std::string schema = "recipe";  ///< or "report"
   bool keep_going = false;
-  bool preview = false;  ///< build: parts side by side, at once
-  std::string help;      ///< text for Verb::Help
+  bool fail_fast = false;             ///< as without keep_going; said aloud
+  bool retry_failed = false;          ///< run again what failed before with the same key
+  std::string junit, sarif, summary;  ///< build: files; empty: none
+  double max_age_days = 0;            ///< cache gc; 0: any
+  double max_size_gb = 0;             ///< cache gc; 0: any
+  bool preview = false;               ///< build: parts side by side, at once
+  std::string help;                   ///< text for Verb::Help
 };
 
 /// Reads the arguments (without the program's name). Throws Error (Usage) for everything that is wrong, with

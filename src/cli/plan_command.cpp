@@ -4,6 +4,8 @@
 
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/planning.h"
+#include "cli/recipe_tasks.h"
 #include "cli/session.h"
 #include "stages/build.h"
 
@@ -11,25 +13,6 @@ namespace skinforge {
 using nlohmann::json;
 
 namespace {
-const char* state_name(PlanState state) {
-  switch (state) {
-    case PlanState::Hit:
-      return "hit";
-    case PlanState::Run:
-      return "run";
-    case PlanState::Waits:
-      return "waits";
-  }
-  return "";
-}
-
-// Plans of one recipe; the later stages are listed once the contents of all inputs are in the cache.
-std::vector<StagePlan> plan_recipe(Session& session, bool& is_complete) {
-  is_complete = session.plan_import();
-  if (is_complete) session.add_grafts();
-  return session.engine().plan();
-}
-
 std::string text_of(const std::vector<StagePlan>& plans, bool is_complete) {
   std::string text;
   for (const StagePlan& plan : plans)
@@ -39,11 +22,12 @@ std::string text_of(const std::vector<StagePlan>& plans, bool is_complete) {
   return text;
 }
 
-json to_json(const std::vector<StagePlan>& plans) {
+json to_json(const std::vector<StagePlan>& plans, const Recipe& recipe) {
   json list = json::array();
   for (const StagePlan& plan : plans) {
     json stage = {{"stage", plan.info.label()}, {"state", state_name(plan.state)}};
     if (!plan.reason.empty()) stage["reason"] = plan.reason;
+    if (plan.state != PlanState::Hit) stage["changes"] = to_json(plan.changes, recipe);
     list.push_back(std::move(stage));
   }
   return list;
@@ -52,16 +36,17 @@ json to_json(const std::vector<StagePlan>& plans) {
 
 ExitCode plan_command(const CommandLine& line, Console& console) {
   json list = json::array();
-  for (const std::string& path : line.recipes) {
-    Session session(line, path, console);
-    bool is_complete = false;
-    const std::vector<StagePlan> plans = plan_recipe(session, is_complete);
+  for (const RecipeTask& task : recipe_tasks(line)) {
+    if (task.code != ExitCode::Ok) throw Error(task.code, task.error);
+    Session session(line, task.resolved, console);
+    const auto [plans, is_complete] = plan_recipe(session);
     session.tell_trouble();
     if (!line.json) print_data(session.recipe().name + "\n" + text_of(plans, is_complete));
-    list.push_back({{"recipe", path},
+    list.push_back({{"recipe", task.recipe},
+                    {"variant", task.resolved.variant},
                     {"name", session.recipe().name},
                     {"is_complete", is_complete},
-                    {"stages", to_json(plans)}});
+                    {"stages", to_json(plans, session.recipe())}});
   }
   const json document = {{"recipes", std::move(list)}, {"exit_code", 0}};
   if (line.json) print_data(document.dump(2, ' ', false, json::error_handler_t::replace));

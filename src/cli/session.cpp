@@ -8,19 +8,26 @@
 #include "base/text.h"
 #include "cli/build_id.h"
 #include "stages/build.h"
+#include "stages/stage_settings.h"
 
 namespace skinforge {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
 namespace {
-// Names the recipe for "why did it run?", wherever the command is called from.
-std::string session_name(const std::string& recipe_path) {
-  std::error_code error;
-  const fs::path path = fs::weakly_canonical(recipe_path, error);
-  return error ? recipe_path : path.string();
+// Not what comes of time, memory or a child process: those may go better next time. Reading a file is quick.
+bool would_fail_again(const StageInfo& stage, ExitCode code) {
+  const bool reads_files = stage.name == "import" || stage.name == "rig";
+  return !reads_files && (code == ExitCode::StageFailed || code == ExitCode::Usage ||
+                          code == ExitCode::BadInput || code == ExitCode::Invalid);
 }
 }  // namespace
+
+std::string session_name(const ResolvedRecipe& recipe) {
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(recipe.path, error);
+  return (error ? recipe.path : path).string() + (recipe.variant.empty() ? "" : " " + recipe.variant);
+}
 
 const char* status_name(StageStatus status) {
   switch (status) {
@@ -36,17 +43,22 @@ const char* status_name(StageStatus status) {
   return "";
 }
 
-Session::Session(const CommandLine& line, const std::string& recipe_path, Console& console)
+Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console& console)
     : line_(line),
       console_(console),
-      recipe_(load_recipe(recipe_path)),
+      recipe_(read_resolved(recipe)),
+      name_(session_name(recipe)),
       store_(line.cache),
       cache_(store_),
       progress_(console),
       engine_(cache_, {.jobs = line.jobs,
                        .build = build_id(),
-                       .session = session_name(recipe_path),
-                       .observer = &progress_}) {
+                       .session = name_,
+                       .observer = &progress_,
+                       .remembers_failure = would_fail_again,
+                       .retry_failed = line.retry_failed,
+                       .settings = recipe_settings(recipe_),
+                       .reads_setting = reads_setting}) {
   set_thread_limit(line.jobs);
 }
 
@@ -87,6 +99,13 @@ bool Session::run_for(const std::vector<std::string>& artifacts) {
   return engine_.is_ok();
 }
 
+std::vector<RunRecord> Session::runs() {
+  std::vector<RunRecord> runs = cache_.past_runs(name_);
+  if (RunRecord last = cache_.last_run(name_); !last.stages.empty())
+    runs.insert(runs.begin(), std::move(last));
+  return runs;
+}
+
 std::optional<StageResult> Session::failure() const {
   for (const StageResult& result : engine_.results())
     if (result.status == StageStatus::Failed) return result;
@@ -98,7 +117,9 @@ void Session::tell_trouble() {
   std::size_t skipped = 0;
   for (const StageResult& result : engine_.results()) {
     if (result.status == StageStatus::Failed)
-      console_.error(printable(fmt::format("{} (stage {})", result.error, result.info.label())));
+      console_.error(
+          printable(fmt::format("{} (stage {}{})", result.error, result.info.label(),
+                                result.is_remembered ? ", as before; --retry-failed runs it again" : "")));
     if (result.status == StageStatus::Skipped) ++skipped;
   }
   if (skipped > 0) console_.info(fmt::format("{} stages that depend on it were skipped", skipped));
@@ -130,6 +151,7 @@ json to_json(const std::vector<StageResult>& results) {
                   {"issues", to_json(result.issues)}};
     if (!result.reason.empty()) stage["reason"] = result.reason;
     if (!result.error.empty()) stage["error"] = result.error;
+    if (result.is_remembered) stage["remembered"] = true;
     list.push_back(std::move(stage));
   }
   return list;

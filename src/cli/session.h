@@ -9,15 +9,15 @@
 #include "cli/console.h"
 #include "cli/progress.h"
 #include "pipeline/engine.h"
-#include "recipe/recipe.h"
+#include "recipe/resolve.h"
 
 namespace skinforge {
 
 /// One recipe on its way through an engine, with cache and progress as the command line wants them.
 class Session {
  public:
-  /// Loads the recipe. Throws Error like `load_recipe`.
-  Session(const CommandLine& line, const std::string& recipe_path, Console& console);
+  /// Reads the recipe. Throws Error like `load_recipe`.
+  Session(const CommandLine& line, const ResolvedRecipe& recipe, Console& console);
 
   const Recipe& recipe() const { return recipe_; }
   Engine& engine() { return engine_; }
@@ -36,6 +36,9 @@ class Session {
   bool run();
   bool run_for(const std::vector<std::string>& artifacts);
 
+  /// Runs of this recipe that the cache knows, the last one first.
+  std::vector<RunRecord> runs();
+
   /// The first stage that failed; none when all is well.
   std::optional<StageResult> failure() const;
   /// Says the errors of failed stages and the cache's warnings.
@@ -45,11 +48,15 @@ class Session {
   const CommandLine& line_;
   Console& console_;
   Recipe recipe_;
+  std::string name_;  ///< of its runs in the cache
   DiskStore store_;
   Cache cache_;
   Progress progress_;
   Engine engine_;
 };
+
+/// Names the runs of a recipe in the cache, wherever the command is called from.
+std::string session_name(const ResolvedRecipe& recipe);
 
 /// "hit", "ran", "failed", "skipped".
 const char* status_name(StageStatus status);

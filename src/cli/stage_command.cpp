@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/recipe_tasks.h"
 #include "cli/session.h"
 #include "stages/build.h"
 
@@ -38,7 +39,7 @@ StageInfo require_stage(Session& session, const std::string& label) {
 }  // namespace
 
 ExitCode stage_run_command(const CommandLine& line, Console& console) {
-  Session session(line, line.recipes.front(), console);
+  Session session(line, only_recipe(line), console);
   session.run_for(require_stage(session, line.stage).writes);
   session.tell_trouble();
   const ExitCode code = exit_code(session.failure());
@@ -51,7 +52,7 @@ ExitCode stage_run_command(const CommandLine& line, Console& console) {
 }
 
 ExitCode stage_list_command(const CommandLine& line, Console& console) {
-  Session session(line, line.recipes.front(), console);
+  Session session(line, only_recipe(line), console);
   if (session.import()) session.add_grafts();
   session.tell_trouble();
   const std::vector<StageInfo> stages = session.engine().stages();

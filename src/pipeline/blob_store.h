@@ -21,6 +21,7 @@ class BlobStore {
   struct Entry {
     std::string name;  ///< without the folder
     std::uint64_t size = 0;
+    double age_seconds = 0;  ///< since it was written or touched
   };
 
   virtual ~BlobStore() = default;
@@ -31,6 +32,8 @@ class BlobStore {
   /// Makes the entry appear whole or not at all, in place of an older one. False when that did not work.
   virtual bool write(const std::string& path, std::span<const std::byte> bytes) = 0;
   virtual void remove(const std::string& path) = 0;
+  /// Notes that the entry was asked for; nothing where that does not work.
+  virtual void touch(const std::string& path) = 0;
   /// All entries of a folder by rising name; temporaries are not entries.
   virtual std::vector<Entry> list(const std::string& folder) const = 0;
 };
@@ -42,9 +45,11 @@ class MemoryStore final : public BlobStore {
   std::optional<std::uint64_t> size(const std::string& path) const override;
   bool write(const std::string& path, std::span<const std::byte> bytes) override;
   void remove(const std::string& path) override;
+  void touch(const std::string& path) override;
   std::vector<Entry> list(const std::string& folder) const override;
 
   std::map<std::string, Bytes> entries;
+  std::map<std::string, double> ages;  ///< seconds, for tests; 0 where nothing stands
   bool is_read_only = false;
 
  private:
@@ -62,6 +67,7 @@ class DiskStore final : public BlobStore {
   std::optional<std::uint64_t> size(const std::string& path) const override;
   bool write(const std::string& path, std::span<const std::byte> bytes) override;
   void remove(const std::string& path) override;
+  void touch(const std::string& path) override;
   std::vector<Entry> list(const std::string& folder) const override;
 
   const std::filesystem::path& root() const { return root_; }

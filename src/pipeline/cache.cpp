@@ -3,48 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <charconv>
 #include <set>
+#include <sstream>
+
+#include "pipeline/cache_layout.h"
 
 namespace skinforge {
-using nlohmann::json;
 
-namespace {
-constexpr const char* kManifests = "ac";
-constexpr const char* kBlobs = "cas";
-constexpr const char* kRuns = "runs";
-
-std::string path_of(const char* folder, const Digest& digest) {
-  return std::string(folder) + "/" + digest.hex();
-}
-
-std::string_view text_of(const Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::span<const std::byte> bytes_of(std::string_view text) {
-  return std::as_bytes(std::span(text));
-}
-
-std::string run_path(const std::string& session) {
-  return path_of(kRuns, sha256(bytes_of(session)));
-}
-
-struct DigestEntry {
-  std::string path;
-  Digest digest;
-  std::uint64_t size = 0;
-};
-
-// Entries of a folder that are named by a digest: the others are not ours.
-std::vector<DigestEntry> entries(const BlobStore& store, const char* folder) {
-  std::vector<DigestEntry> found;
-  for (const BlobStore::Entry& entry : store.list(folder))
-    if (const auto digest = digest_from_hex(entry.name))
-      found.push_back({path_of(folder, *digest), *digest, entry.size});
-  return found;
-}
-}  // namespace
+using namespace cache_layout;
 
 std::optional<Manifest> Cache::peek(const Digest& key) {
   const std::optional<Bytes> bytes = store_.read(path_of(kManifests, key));
@@ -71,6 +38,7 @@ std::optional<Manifest> Cache::find(const Digest& key) {
     if (size) store_.remove(blob_path);
     return std::nullopt;
   }
+  store_.touch(path);
   return manifest;
 }
 
@@ -106,22 +74,58 @@ void Cache::put(const Manifest& manifest) {
     warn("cache-not-writable", path, "the cache cannot be written; results are not kept");
 }
 
-std::map<std::string, Digest> Cache::last_keys(const std::string& session) {
-  std::map<std::string, Digest> keys;
-  const std::optional<Bytes> bytes = store_.read(run_path(session));
-  if (!bytes) return keys;
-  const json run = json::parse(text_of(*bytes), nullptr, false);
-  if (!run.is_object()) return keys;  // a damaged record only costs the reasons
-  for (const auto& [label, hex] : run.items())
-    if (const auto key = digest_from_hex(hex.is_string() ? hex.get<std::string>() : "")) keys[label] = *key;
-  return keys;
+std::optional<StoredFailure> Cache::failure(const Digest& key) {
+  const std::optional<Bytes> bytes = store_.read(path_of(kFailures, key));
+  if (!bytes) return std::nullopt;
+  // "<sha256 of the rest>\n<exit status>\n<message>"
+  const std::string_view text = text_of(*bytes);
+  const auto first = text.find('\n'), second = text.find('\n', first + 1);
+  if (first == std::string_view::npos || second == std::string_view::npos) return std::nullopt;
+  if (sha256(bytes_of(text.substr(first + 1))).hex() != text.substr(0, first)) return std::nullopt;
+  int code = 0;
+  std::from_chars(text.data() + first + 1, text.data() + second, code);
+  return StoredFailure{static_cast<ExitCode>(code), std::string(text.substr(second + 1))};
 }
 
-void Cache::put_last_keys(const std::string& session, const std::map<std::string, Digest>& keys) {
-  json run = json::object();
-  for (const auto& [label, key] : keys) run[label] = key.hex();
-  const std::string text = run.dump(1, ' ', false, json::error_handler_t::replace);
-  store_.write(run_path(session), bytes_of(text));
+void Cache::put_failure(const Digest& key, const StoredFailure& failure) {
+  const std::string rest = std::to_string(static_cast<int>(failure.code)) + "\n" + failure.message;
+  store_.write(path_of(kFailures, key), bytes_of(sha256(bytes_of(rest)).hex() + "\n" + rest));
+}
+
+void Cache::forget_failure(const Digest& key) {
+  const std::string path = path_of(kFailures, key);
+  if (store_.size(path)) store_.remove(path);
+}
+
+RunRecord Cache::last_run(const std::string& session) {
+  const std::optional<Bytes> bytes = store_.read(run_path(kRuns, session));
+  if (!bytes) return {};
+  return parse_run_record(text_of(*bytes)).value_or(RunRecord());  // a damaged record only costs the reasons
+}
+
+void Cache::put_last_run(const std::string& session, const RunRecord& run) {
+  store_.write(run_path(kRuns, session), bytes_of(run_record_text(run)));
+}
+
+std::vector<RunRecord> Cache::past_runs(const std::string& session) {
+  std::vector<RunRecord> runs;
+  const std::optional<Bytes> bytes = store_.read(run_path(kPastRuns, session));
+  if (!bytes) return runs;
+  std::istringstream lines{std::string(text_of(*bytes))};
+  for (std::string line; std::getline(lines, line);)
+    if (auto run = parse_run_record(line)) runs.push_back(std::move(*run));
+  return runs;
+}
+
+void Cache::put_past_run(const std::string& session, const RunRecord& run) {
+  std::string text = run_record_text(run) + "\n";
+  std::size_t kept = 1;
+  for (const RunRecord& old : past_runs(session)) {
+    if (old == run || kept == kMaxPastRuns) continue;
+    text += run_record_text(old) + "\n";
+    ++kept;
+  }
+  store_.write(run_path(kPastRuns, session), bytes_of(text));
 }
 
 Cache::Stats Cache::stats() {
@@ -172,7 +176,7 @@ std::vector<std::string> Cache::verify() {
 
 std::uint64_t Cache::clear() {
   std::uint64_t removed = 0;
-  for (const char* folder : {kManifests, kRuns, kBlobs}) {
+  for (const char* folder : {kManifests, kFailures, kRuns, kPastRuns, kPins, kBlobs}) {
     for (const DigestEntry& entry : entries(store_, folder)) {
       store_.remove(entry.path);
       ++removed;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "base/hash.h"
 #include "base/issue.h"
 #include "pipeline/blob_store.h"
+#include "pipeline/run_record.h"
 
 namespace skinforge {
 
@@ -45,6 +47,12 @@ std::string manifest_text(const Manifest& manifest);
 /// Reads it back; none when anything is off: header, length, digest, JSON, or another key than `key`.
 std::optional<Manifest> parse_manifest(std::string_view text, const Digest& key);
 
+/// A failure that would come again: of the stage with that key.
+struct StoredFailure {
+  ExitCode code = ExitCode::StageFailed;
+  std::string message;
+};
+
 /// Results of stages by content: `ac/<key>` holds manifests, `cas/<sha256>` the blobs they name. Blobs are
 /// written before the manifest, everything that is read is verified, and no trouble here fails a build: it is
 /// a miss and one warning. Thread-safe; several processes may share one folder.
@@ -67,9 +75,18 @@ class Cache {
   /// Stores a manifest; its blobs must be stored.
   void put(const Manifest& manifest);
 
-  /// Keys of the last run of a session, by stage label: for "why did it run?".
-  std::map<std::string, Digest> last_keys(const std::string& session);
-  void put_last_keys(const std::string& session, const std::map<std::string, Digest>& keys);
+  /// The failure of a key, if it was stored and is sound.
+  std::optional<StoredFailure> failure(const Digest& key);
+  void put_failure(const Digest& key, const StoredFailure& failure);
+  void forget_failure(const Digest& key);
+
+  /// The last run of a session: for "why did it run?". Empty when there is none.
+  RunRecord last_run(const std::string& session);
+  void put_last_run(const std::string& session, const RunRecord& run);
+  /// Those before it, newest first, at most `kMaxPastRuns`.
+  std::vector<RunRecord> past_runs(const std::string& session);
+  void put_past_run(const std::string& session, const RunRecord& run);
+  static constexpr std::size_t kMaxPastRuns = 16;  // ours: two weeks of nights
 
   struct StageStats {
     std::uint64_t entries = 0;
@@ -88,11 +105,31 @@ class Cache {
   /// Removes every entry, manifests first. Returns how many.
   std::uint64_t clear();
 
+  struct CollectOptions {
+    std::uint64_t max_bytes = std::numeric_limits<std::uint64_t>::max();  ///< of entries with their results
+    double max_age_seconds = std::numeric_limits<double>::infinity();  ///< since an entry was last asked for
+    double min_blob_age_seconds = 3600;  ///< ours: younger results may belong to a build that runs now
+  };
+  struct Collected {
+    std::uint64_t entries = 0, blobs = 0, bytes = 0;
+    std::uint64_t bytes_left = 0;  ///< of entries with their results
+  };
+  /// Removes entries that are too old, then those that were not asked for longest until the rest fits, but
+  /// none that is pinned; then the results that no entry names. Manifests go before blobs, so nothing names
+  /// what is not there; a build that runs now makes anew what it misses.
+  Collected collect(const CollectOptions& options);
+  /// Keeps the entries of the last run of a session from `collect`, as they are now. False when it never ran,
+  /// or the store refuses.
+  bool pin(const std::string& session);
+  /// False when it was not pinned.
+  bool unpin(const std::string& session);
+
   /// Warnings since the last call, at most one of each kind and one of each entry in a session.
   std::vector<Issue> take_warnings();
 
  private:
   bool has_blobs(const Manifest& manifest) const;
+  std::set<Digest> pinned_keys();
   void warn(const std::string& code, const std::string& place, const std::string& message);
 
   BlobStore& store_;

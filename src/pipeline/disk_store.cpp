@@ -136,13 +136,18 @@ void DiskStore::remove(const std::string& path) {
   fs::remove_all(root_ / path, error);
 }
 
+void DiskStore::touch(const std::string& path) {
+  ::utimensat(AT_FDCWD, (root_ / path).c_str(), nullptr, AT_SYMLINK_NOFOLLOW);
+}
+
 std::vector<BlobStore::Entry> DiskStore::list(const std::string& folder) const {
   std::vector<Entry> found;
   std::error_code error;
   for (fs::directory_iterator item(root_ / folder, error), end; !error && item != end;
        item.increment(error)) {
     const std::string name = item->path().filename();
-    if (!owner(name)) found.push_back({name, regular_size(item->path()).value_or(0)});
+    if (!owner(name))
+      found.push_back({name, regular_size(item->path()).value_or(0), age_seconds_of(item->path())});
   }
   std::sort(found.begin(), found.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
   return found;

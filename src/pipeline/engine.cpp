@@ -56,30 +56,47 @@ void Engine::Session::run(const std::vector<Node*>& tasks) {
   for (std::size_t i = 1; i < std::min(options.jobs, tasks.size()); ++i) helpers.emplace_back(work);
   work();
   for (std::thread& helper : helpers) helper.join();
-  remember_keys();
+  remember_run();
 }
 
 StagePlan Engine::Session::plan(Node& node) {
-  for (const std::string& name : node.info.reads)
-    if (!artifact(name)) return {node.info, PlanState::Waits, "waits for " + slot(name).maker->info.label()};
+  StagePlan plan{node.info, PlanState::Waits, {}, {}};
+  std::vector<std::optional<Digest>> inputs;
+  for (const std::string& name : node.info.reads) {
+    const auto input = artifact(name);
+    inputs.push_back(input ? std::optional(input->digest()) : std::nullopt);
+    if (!input && plan.reason.empty()) plan.reason = "waits for " + slot(name).maker->info.label();
+  }
+  if (!plan.reason.empty()) {
+    node.key = partial_stage_key(*node.stage, node.info, options.build, inputs);
+    plan.changes = changes(node, earlier_run());
+    return plan;
+  }
   compute_key(node);
+  plan.changes = changes(node, earlier_run());
   const auto manifest = cache.find(node.key.digest);
-  if (!manifest) return {node.info, PlanState::Run, reason(node)};
-  adopt(node, *manifest);
-  return {node.info, PlanState::Hit, {}};
+  plan.state = manifest ? PlanState::Hit : PlanState::Run;
+  if (manifest)
+    adopt(node, *manifest);
+  else
+    plan.reason = reason(node);
+  if (!manifest && plan.changes.empty()) plan.changes = {{KeyChange::Kind::EntryLost}};
+  return plan;
 }
 
-// Keeps the keys of this session for the reasons of the next; writes only when something changed.
-void Engine::Session::remember_keys() {
+// Keeps the keys of this session for the reasons of the next; writes only when something changed. The run
+// before moves to the past ones once.
+void Engine::Session::remember_run() {
   if (options.session.empty()) return;
-  if (!last_keys) last_keys = cache.last_keys(options.session);
-  std::map<std::string, Digest> keys = *last_keys;
+  const RunRecord& before = earlier_run();
+  const RunRecord written = run_now;
   for (const auto& node : nodes)
     if (node->result.status == StageStatus::Hit || node->result.status == StageStatus::Ran)
-      keys[node->info.label()] = node->key.digest;
-  if (keys == *last_keys) return;
-  cache.put_last_keys(options.session, keys);
-  last_keys = std::move(keys);
+      run_now.note(node->info.label(), node->key.digest, options.settings);
+  run_now.tidy();
+  if (run_now == written) return;
+  if (written == before && !before.stages.empty()) cache.put_past_run(options.session, before);
+  cache.put_last_run(options.session, run_now);
 }
 
 Engine::Engine(Cache& cache, EngineOptions options)
@@ -131,6 +148,19 @@ std::vector<StagePlan> Engine::plan() {
     order.done(*task);
   }
   return plans;
+}
+
+std::vector<std::vector<KeyChange>> Engine::changes_since(const RunRecord& run) {
+  std::vector<std::vector<KeyChange>> changes;
+  for (const Node* node : session_->pending()) changes.push_back(session_->changes(*node, run));
+  return changes;
+}
+
+std::map<std::string, std::vector<HashedField>> Engine::parameters() const {
+  std::map<std::string, std::vector<HashedField>> parameters;
+  for (const auto& node : session_->nodes)
+    parameters[node->info.label()] = stage_key(*node->stage, node->info, {}, {}).parameters;
+  return parameters;
 }
 
 std::vector<StageResult> Engine::results() const {

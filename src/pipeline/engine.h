@@ -7,6 +7,7 @@
 
 #include "base/version.h"
 #include "pipeline/cache.h"
+#include "pipeline/key_change.h"
 #include "pipeline/stage.h"
 
 namespace skinforge {
@@ -18,10 +19,11 @@ struct StageResult {
   StageInfo info;
   Digest key;  ///< zero when skipped
   StageStatus status = StageStatus::Skipped;
-  std::string reason;         ///< why it ran, or which failed stage it waited for; empty for a hit
-  std::vector<Issue> issues;  ///< of this run, or replayed
-  StageCost cost;             ///< of this run, or for a hit of the run that was stored
-  std::string error;          ///< one line, when failed
+  std::string reason;          ///< why it ran, or which failed stage it waited for; empty for a hit
+  std::vector<Issue> issues;   ///< of this run, or replayed
+  StageCost cost;              ///< of this run, or for a hit of the run that was stored
+  std::string error;           ///< one line, when failed
+  bool is_remembered = false;  ///< failed before with the same key, and was not run now
   ExitCode code = ExitCode::Ok;
 };
 
@@ -32,6 +34,7 @@ struct StagePlan {
   StageInfo info;
   PlanState state = PlanState::Waits;
   std::string reason;  ///< "never run", "input field changed", "parameter scale: 1 -> 1.2", "waits for place"
+  std::vector<KeyChange> changes;  ///< since the last run of the session, even where the stage is a hit
 };
 
 /// Told as stages start and finish; one call at a time, from any thread.
@@ -47,6 +50,12 @@ struct EngineOptions {
   std::string build = kVersion;        ///< id of the tool, part of every key
   std::string session = {};            ///< whose last run to compare with for reasons; empty = none
   EngineObserver* observer = nullptr;  ///< may be null
+  /// Which failures would come again and are remembered until the key changes; null: none. `retry_failed`:
+  /// those are tried all the same.
+  std::function<bool(const StageInfo&, ExitCode)> remembers_failure = {};
+  bool retry_failed = false;
+  Settings settings = {};           ///< what the person set, for reasons; never part of a key
+  ReadsSetting reads_setting = {};  ///< which stage takes which of them into its key
 };
 
 /// One build session: takes stages in batches, runs them in the order of their artifacts, from the cache
@@ -89,6 +98,11 @@ class Engine {
   /// What `run` would do, one per stage not run yet, in the order they were added. Runs nothing. Outputs of
   /// hits count as known afterwards, so that a further batch can be planned.
   std::vector<StagePlan> plan();
+
+  /// What differs from an earlier run of the session: one list per stage of the last `plan`, in its order.
+  std::vector<std::vector<KeyChange>> changes_since(const RunRecord& run);
+  /// The parameters in the key of each stage added so far, by label: what a setting moves directly.
+  std::map<std::string, std::vector<HashedField>> parameters() const;
 
   /// One per stage run so far, in the order they were added.
   std::vector<StageResult> results() const;

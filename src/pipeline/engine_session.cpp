@@ -57,13 +57,29 @@ void Engine::Session::adopt(Node& node, const Manifest& manifest) {
   node.result.cost = manifest.cost;
 }
 
+// The last run of this session as it was before the session began.
+const RunRecord& Engine::Session::earlier_run() {
+  const std::lock_guard lock(recording);
+  if (!last_run) last_run = run_now = cache.last_run(options.session);
+  return *last_run;
+}
+
+std::vector<KeyChange> Engine::Session::changes(const Node& node, const RunRecord& since) {
+  const std::string label = node.info.label();
+  EarlierRun earlier;
+  if (const auto stage = since.stages.find(label); stage != since.stages.end()) {
+    earlier.key = stage->second.key;
+    earlier.settings = since.settings_of(label);
+    if (*earlier.key != node.key.digest) earlier.manifest = cache.peek(*earlier.key);
+  }
+  return key_changes(node.info, node.key, options.settings, earlier, options.reads_setting);
+}
+
+// Why a stage that is not in the cache has to run.
 std::string Engine::Session::reason(const Node& node) {
   if (options.session.empty()) return "not in the cache";
-  const std::lock_guard lock(mutex);
-  if (!last_keys) last_keys = cache.last_keys(options.session);
-  const auto last = last_keys->find(node.info.label());
-  if (last == last_keys->end()) return why_run(node.info, node.key, std::nullopt, std::nullopt);
-  return why_run(node.info, node.key, last->second, cache.peek(last->second));
+  const std::vector<KeyChange> found = changes(node, earlier_run());
+  return found.empty() ? to_text({KeyChange::Kind::EntryLost}) : why_run(found);
 }
 
 std::vector<std::shared_ptr<Artifact>> Engine::Session::execute(Node& node, IssueSink& issues,
@@ -165,6 +181,10 @@ void Engine::Session::process(Node& node) {
   node.result.key = node.key.digest;
   if (const auto manifest = cache.find(node.key.digest)) return adopt(node, *manifest);
 
+  if (const auto failure = remembered_failure(node)) {
+    node.result.is_remembered = true;
+    throw Error(failure->code, failure->message);
+  }
   node.result.reason = reason(node);
   if (options.observer) {
     const std::lock_guard lock(observing);
@@ -178,6 +198,21 @@ void Engine::Session::process(Node& node) {
   store(node, outputs);
 }
 
+// The failure of an earlier run that this one would meet again.
+std::optional<StoredFailure> Engine::Session::remembered_failure(const Node& node) {
+  if (options.retry_failed || !options.remembers_failure) return std::nullopt;
+  return cache.failure(node.key.digest);
+}
+
+// A stage that ran well or badly: its failure is stored or forgotten.
+void Engine::Session::remember_failure(const Node& node) {
+  const StageResult& result = node.result;
+  if (!options.remembers_failure || result.is_remembered) return;
+  if (result.status == StageStatus::Ran && options.retry_failed) cache.forget_failure(node.key.digest);
+  if (result.status == StageStatus::Failed && options.remembers_failure(node.info, result.code))
+    cache.put_failure(node.key.digest, {result.code, result.error});
+}
+
 void Engine::Session::process_safely(Node& node) {
   const auto fail = [&](ExitCode code, const std::string& message) {
     node.result.status = StageStatus::Failed;
@@ -186,8 +221,10 @@ void Engine::Session::process_safely(Node& node) {
   };
   try {
     process(node);
+    remember_failure(node);
   } catch (const Error& error) {
     fail(error.code(), error.what());
+    remember_failure(node);
   } catch (const std::bad_alloc&) {
     fail(ExitCode::StageFailed, "not enough memory");
   } catch (const std::exception& error) {

@@ -38,10 +38,12 @@ struct Engine::Session {
   EngineOptions options;
   mutable std::mutex mutex;  // guards artifacts of `slots` and results of `nodes` while stages run
   std::mutex observing;
+  std::mutex recording;  // guards `last_run`
   std::vector<std::unique_ptr<Node>> nodes;
   std::map<std::string, Slot> slots;
   std::map<Digest, const Node*> ran;  // by key: who made its outputs first
-  std::optional<std::map<std::string, Digest>> last_keys;
+  std::optional<RunRecord> last_run;  // as it was stored before this session
+  RunRecord run_now;                  // and as this session goes on
 
   void add_source(const std::string& name, std::shared_ptr<Artifact> artifact);
   void add(std::unique_ptr<Stage> stage);
@@ -51,7 +53,11 @@ struct Engine::Session {
 
   void compute_key(Node& node) const;
   void adopt(Node& node, const Manifest& manifest);
+  const RunRecord& earlier_run();
+  std::vector<KeyChange> changes(const Node& node, const RunRecord& since);
   std::string reason(const Node& node);
+  std::optional<StoredFailure> remembered_failure(const Node& node);
+  void remember_failure(const Node& node);
   std::vector<std::shared_ptr<Artifact>> execute(Node& node, IssueSink& issues, StageCost& cost);
   void accept(const Node& node, const std::vector<std::shared_ptr<Artifact>>& outputs);
   void store(Node& node, const std::vector<std::shared_ptr<Artifact>>& outputs);
@@ -67,7 +73,7 @@ struct Engine::Session {
   void run(const std::vector<Node*>& nodes);
   const Node* failed_maker(const Node& node) const;
   StagePlan plan(Node& node);
-  void remember_keys();
+  void remember_run();
 };
 
 }  // namespace skinforge

@@ -26,11 +26,19 @@ void MemoryStore::remove(const std::string& path) {
   if (!is_read_only) entries.erase(path);
 }
 
+void MemoryStore::touch(const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  ages.erase(path);
+}
+
 std::vector<BlobStore::Entry> MemoryStore::list(const std::string& folder) const {
   const std::lock_guard lock(mutex_);
   std::vector<Entry> found;
   for (const auto& [path, bytes] : entries)
-    if (path.starts_with(folder + "/")) found.push_back({path.substr(folder.size() + 1), bytes.size()});
+    if (path.starts_with(folder + "/")) {
+      const auto age = ages.find(path);
+      found.push_back({path.substr(folder.size() + 1), bytes.size(), age == ages.end() ? 0 : age->second});
+    }
   return found;
 }
 

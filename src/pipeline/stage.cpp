@@ -6,8 +6,16 @@
 
 namespace skinforge {
 
+std::string_view StageInfo::prefix() const {
+  if (writes.empty()) return {};
+  const std::string_view first = writes.front();
+  const auto slash = first.substr(0, first.find(':')).rfind('/');  // behind a colon may stand any text
+  return slash == std::string_view::npos ? std::string_view() : first.substr(0, slash + 1);
+}
+
 std::string StageInfo::label() const {
-  return instance.empty() ? name : name + " " + instance;
+  const std::string own = std::string(prefix()) + name;
+  return instance.empty() ? own : own + " " + instance;
 }
 
 std::string issues_artifact(const std::string& first_output) {

@@ -22,7 +22,10 @@ struct StageInfo {
                                          ///< order, are part of the key
   std::vector<std::string> writes = {};  ///< artifacts; each must be put
 
-  /// "import horse", or the name alone.
+  /// What stands before the name of the first artifact written: "body/" for the stages of a recipe used as
+  /// the input "body", empty for those of the recipe itself.
+  std::string_view prefix() const;
+  /// "import horse", "map_joints", "body/import man": one for each stage of a session.
   std::string label() const;
 };
 

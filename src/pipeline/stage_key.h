@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/cache.h"
+#include "base/hash.h"
 #include "pipeline/stage.h"
 
 namespace skinforge {
@@ -14,7 +14,7 @@ struct StageKey {
   Digest digest;
   std::string build;
   std::vector<HashedField> parameters;
-  std::vector<HashedField> inputs;  ///< artifact name and digest
+  std::vector<HashedField> inputs;  ///< artifact name and digest; an empty value is not known yet
 };
 
 /// SHA-256 over tool build, stage name, version, parameters and the digests of what it reads, in order
@@ -23,10 +23,8 @@ struct StageKey {
 StageKey stage_key(const Stage& stage, const StageInfo& info, const std::string& build,
                    const std::vector<Digest>& inputs);
 
-/// Why a stage whose key is not in the cache has to run, compared with its last run: "parameter scale: 1 ->
-/// 1.2; input field changed", at most eight changes. `last_key`: none if it never ran; `last`: none if that
-/// run is no longer stored.
-std::string why_run(const StageInfo& info, const StageKey& now, const std::optional<Digest>& last_key,
-                    const std::optional<Manifest>& last);
+/// The same as far as it is known: no value for inputs that have to be made first, and a digest that is none.
+StageKey partial_stage_key(const Stage& stage, const StageInfo& info, const std::string& build,
+                           const std::vector<std::optional<Digest>>& inputs);
 
 }  // namespace skinforge

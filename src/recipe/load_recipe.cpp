@@ -1,12 +1,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "base/safe_name.h"
 #include "base/text.h"
 #include "recipe/recipe.h"
+#include "recipe/resolve.h"
 #include "recipe/value_reader.h"
 
 namespace skinforge {
@@ -17,9 +16,9 @@ constexpr int kRecipeVersion = 1;
 constexpr std::size_t kMaxOperations = 10000;  // ours: refuses nonsense, not work
 constexpr std::size_t kMaxIncludeDepth = 16;   // ours: recipes in recipes in recipes
 const std::initializer_list<std::string_view> kKeys = {
-    "$schema", "recipe_version", "name",      "inputs",      "base",
-    "ops",     "surface",        "animation", "correctives", "output"};
-constexpr double kMaxLength = 1e9;             // ours: metres and factors; keeps sums and products finite
+    "$schema", "recipe_version", "name",        "inputs", "base",  "ops",
+    "surface", "animation",      "correctives", "output", "expect"};
+constexpr double kMaxLength = 1e9;  // ours: metres and factors; keeps sums and products finite
 constexpr double kLeastVoxel = 1e-6, kMostVoxel = 1e6;  // ours: metres; beside any character
 
 std::string extension_of(const fs::path& path) {
@@ -29,35 +28,32 @@ std::string extension_of(const fs::path& path) {
   return extension;
 }
 
-std::string read_recipe_text(const fs::path& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) throw Error(ExitCode::BadInput, path.string() + ": no such file");
-  if (!fs::is_regular_file(path, error))
-    throw Error(ExitCode::BadInput, path.string() + ": not a regular file");
-  if (const auto size = fs::file_size(path, error); !error && size > kMaxRecipeBytes)
-    throw text_error(path.string(), {},
-                     fmt::format("a recipe has at most {} bytes, this file has {}", kMaxRecipeBytes, size));
-  std::ifstream file(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file) throw Error(ExitCode::BadInput, path.string() + ": cannot be read");
-  return text;
-}
-
-Value parse_text(const std::string& text, const fs::path& path) {
-  const std::string file = path.string(), extension = extension_of(path);
-  expect_recipe_text(text, file);
-  if (extension == ".yaml" || extension == ".yml") return parse_yaml_text(text, file);
-  if (extension == ".json" || extension == ".jsonc") return parse_json_text(text, file);
-  throw Error(ExitCode::Usage, file + ": a recipe ends in .json, .jsonc, .yaml or .yml");
-}
-
-void collect_places(const Value& value, const std::string& file, const std::string& pointer,
+void collect_places(const Value& value, const std::string& pointer,
                     std::map<std::string, std::string>& places) {
-  places[pointer] = fmt::format("{}:{}:{}", file, value.place.line, value.place.column);
+  places[pointer] = value.where();
   for (const Value::Member& member : value.members)
-    collect_places(member.value, file, pointer_to(pointer, member.key), places);
+    collect_places(member.value, pointer_to(pointer, member.key), places);
   for (std::size_t i = 0; i < value.items.size(); ++i)
-    collect_places(value.items[i], file, pointer_to(pointer, std::to_string(i)), places);
+    collect_places(value.items[i], pointer_to(pointer, std::to_string(i)), places);
+}
+
+bool is_list_of_values(const Value& value) {
+  return value.kind == Value::Kind::Array &&
+         std::none_of(value.items.begin(), value.items.end(), [](const Value& item) {
+           return item.kind == Value::Kind::Array || item.kind == Value::Kind::Object;
+         });
+}
+
+void collect_values(const Value& value, const std::string& pointer,
+                    std::map<std::string, std::string>& values) {
+  const bool is_nested = value.kind == Value::Kind::Object || value.kind == Value::Kind::Array;
+  const bool is_empty = value.members.empty() && value.items.empty();
+  if (!is_nested || is_empty || is_list_of_values(value)) values[pointer] = value_text(value);
+  for (const Value::Member& member : value.members)
+    collect_values(member.value, pointer_to(pointer, member.key), values);
+  if (is_list_of_values(value)) return;
+  for (std::size_t i = 0; i < value.items.size(); ++i)
+    collect_values(value.items[i], pointer_to(pointer, std::to_string(i)), values);
 }
 
 // Reads one recipe file; `including` are the files that led here, outermost first.
@@ -66,8 +62,10 @@ class RecipeReader {
   RecipeReader(const fs::path& path, const std::vector<fs::path>& including)
       : path_(path), including_(including) {}
 
-  Recipe read(const Value& root) {
+  Recipe read(const ResolvedRecipe& resolved) {
+    const Value& root = resolved.root;
     recipe_.path = path_;
+    recipe_.variant = resolved.variant;
     const std::string file = path_.string();
     const ValueReader reader(root, file, "");
     expect_version(reader);
@@ -82,7 +80,9 @@ class RecipeReader {
     if (const auto correctives = object.find("correctives")) read_correctives(*correctives);
     recipe_.output.glb = recipe_.name + ".glb";
     if (const auto output = object.find("output")) read_output(*output);
-    collect_places(root, file, "", recipe_.places);
+    if (const auto expect = object.find("expect")) recipe_.expect = read_expectations(*expect);
+    collect_places(root, "", recipe_.places);
+    collect_values(root, "", recipe_.values);
     return std::move(recipe_);
   }
 
@@ -132,7 +132,8 @@ class RecipeReader {
     if (text.find('\\') != std::string::npos) refuse("has a backslash; write / between folders");
     if (text.find("://") != std::string::npos) refuse("is an address; inputs are files");
     if (fs::path(text).is_absolute()) refuse("is absolute; write it relative to the recipe");
-    return {text, (path_.parent_path() / text).lexically_normal()};
+    const fs::path file = reader.value().file ? fs::path(reader.value().file_name()) : path_;
+    return {text, (file.parent_path() / text).lexically_normal()};
   }
 
   void read_inputs(const ValueReader& reader) {
@@ -527,6 +528,33 @@ class RecipeReader {
     }
   }
 
+  static Expectations read_expectations(const ValueReader& reader) {
+    const ObjectReader object =
+        reader.object({"triangles", "vertices", "joints", "influences", "materials", "images",
+                       "morph_targets", "clips", "bytes", "watertight", "clip_names"});
+    Expectations expect;
+    for (const auto& [key, value] : reader.members())
+      if (key != "watertight" && key != "clip_names") expect.ranges[key] = read_range(value);
+    if (const auto watertight = object.find("watertight")) expect.watertight = watertight->boolean();
+    if (const auto names = object.find("clip_names"))
+      for (const ValueReader& name : names->items()) expect.clips.push_back(name.text());
+    return expect;
+  }
+
+  // A number is the most that there may be.
+  static ExpectedRange read_range(const ValueReader& reader) {
+    if (!reader.is_object() && reader.value().kind != Value::Kind::Number)
+      reader.fail_expected("a number (the most), or an object with \"min\" and \"max\"");
+    if (!reader.is_object()) return {std::nullopt, reader.number(0, kMaxLength * 1e3)};
+    const ObjectReader object = reader.object({"min", "max"});
+    ExpectedRange range;
+    if (const auto least = object.find("min")) range.min = least->number(0, kMaxLength * 1e3);
+    if (const auto most = object.find("max")) range.max = most->number(0, kMaxLength * 1e3);
+    if (!range.min && !range.max) reader.fail("expected \"min\", \"max\" or both");
+    if (range.min && range.max && *range.min > *range.max) reader.fail("\"min\" is above \"max\"");
+    return range;
+  }
+
   static std::string output_name(const ValueReader& reader, const std::string& extension) {
     const std::string name = reader.text();
     if (!is_safe_relative_path(name))
@@ -542,8 +570,13 @@ class RecipeReader {
   Recipe recipe_;
 };
 
-Recipe read_recipe(const std::string& text, const fs::path& path, const std::vector<fs::path>& including) {
-  return RecipeReader(path, including).read(parse_text(text, path));
+// The one recipe of a file that another recipe or the program asks for.
+Recipe read_only_one(std::vector<ResolvedRecipe> recipes, const fs::path& path,
+                     const std::vector<fs::path>& including) {
+  if (recipes.size() != 1)
+    throw Error(ExitCode::Usage, fmt::format("{}: this recipe makes {} characters; one is wanted here",
+                                             path.string(), recipes.size()));
+  return RecipeReader(path, including).read(recipes.front());
 }
 
 Recipe RecipeReader::included(const ValueReader& reader, const fs::path& path) const {
@@ -555,7 +588,7 @@ Recipe RecipeReader::included(const ValueReader& reader, const fs::path& path) c
       reader.fail("recipe \"" + printable(path.string()) + "\" includes itself");
   if (chain.size() > kMaxIncludeDepth)
     reader.fail(fmt::format("recipes inside each other deeper than {}", kMaxIncludeDepth));
-  return read_recipe(read_recipe_text(path), path, chain);
+  return read_only_one(resolve_recipes(path), path, chain);
 }
 }  // namespace
 
@@ -566,22 +599,54 @@ std::size_t Recipe::input_index(const std::string& input) const {
   return static_cast<std::size_t>(found - inputs.begin());
 }
 
-std::string Recipe::place(const std::string& pointer) const {
+namespace {
+// The recipe inside this one that the pointer leads into, and the pointer there.
+std::pair<const Recipe*, std::string> inner_recipe(const Recipe& recipe, const std::string& pointer) {
+  for (const RecipeInput& input : recipe.inputs) {
+    const std::string prefix = pointer_to("/inputs", input.name) + "/recipe/";
+    if (input.recipe && pointer.starts_with(prefix))
+      return {input.recipe.get(), pointer.substr(prefix.size() - 1)};
+  }
+  return {nullptr, {}};
+}
+}  // namespace
+
+std::string Recipe::where(const std::string& pointer) const {
+  if (const auto [inner, rest] = inner_recipe(*this, pointer); inner) return inner->where(rest);
   std::string enclosing = pointer;
   auto found = places.find(enclosing);
   while (found == places.end() && !enclosing.empty()) {
     enclosing.erase(enclosing.rfind('/'));
     found = places.find(enclosing);
   }
-  return (found == places.end() ? path.string() : found->second) + ": " + pointer;
+  return found == places.end() ? path.string() : found->second;
+}
+
+std::string Recipe::place(const std::string& pointer) const {
+  return where(pointer) + ": " + pointer;
+}
+
+std::map<std::string, std::string> recipe_settings(const Recipe& recipe) {
+  std::map<std::string, std::string> settings = recipe.values;
+  for (const char* key : {"/$schema", "/recipe_version"}) settings.erase(key);
+  for (const RecipeInput& input : recipe.inputs) {
+    if (!input.recipe) continue;
+    for (auto& [pointer, text] : recipe_settings(*input.recipe))
+      settings[pointer_to("/inputs", input.name) + "/recipe" + pointer] = text;
+  }
+  return settings;
+}
+
+Recipe read_resolved(const ResolvedRecipe& resolved) {
+  return RecipeReader(resolved.path, {}).read(resolved);
 }
 
 Recipe load_recipe(const fs::path& path) {
-  return read_recipe(read_recipe_text(path), path, {});
+  return read_only_one(resolve_recipes(path), path, {});
 }
 
 Recipe parse_recipe(const std::string& text, const fs::path& path) {
-  return read_recipe(text, path, {});
+  return read_only_one(resolve_text(text, path), path, {});
 }
 
 }  // namespace skinforge

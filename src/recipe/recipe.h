@@ -277,8 +277,35 @@ struct OutputOptions {
   }
 };
 
+/// What a quantity of the result may be; unset ends are open.
+struct ExpectedRange {
+  std::optional<double> min, max;
+
+  auto operator<=>(const ExpectedRange&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, ExpectedRange& r) {
+    a(r.min, r.max);
+  }
+};
+
+/// Budgets that the result has to keep ("expect"). They change nothing in it, so they are in no key but that
+/// of the stage that checks them.
+struct Expectations {
+  std::map<std::string, ExpectedRange> ranges;  ///< by quantity: "triangles", "joints", ... (schema)
+  std::optional<bool> watertight;
+  std::vector<std::string> clips;  ///< clips that must be there
+
+  bool is_empty() const { return ranges.empty() && !watertight && clips.empty(); }
+  auto operator<=>(const Expectations&) const = default;
+  template <class Archive>
+  friend void fields(Archive& a, Expectations& e) {
+    a(e.ranges, e.watertight, e.clips);
+  }
+};
+
 struct Recipe {
   std::filesystem::path path;
+  std::string variant;              ///< cell of the recipe's matrix, "body=horse torso=knight"; else empty
   std::string name;                 ///< a safe file name
   std::vector<RecipeInput> inputs;  ///< by rising name, so the order in the file does not matter
   std::string base;                 ///< an input
@@ -287,14 +314,22 @@ struct Recipe {
   AnimationOptions animation;
   CorrectivesOptions correctives;
   OutputOptions output;
+  Expectations expect;
   std::map<std::string, std::string> places;  ///< JSON pointer -> "centaur.json:12:9"
+  std::map<std::string, std::string> values;  ///< JSON pointer of each value or list of values -> its text
 
   /// Index into `inputs` of a name that the recipe uses (load_recipe has checked that it is there).
   std::size_t input_index(const std::string& input) const;
-  /// "centaur.json:12:9: /ops/0/at", for messages about what stands there; the nearest enclosing place when
-  /// `pointer` itself was left to its default.
+  /// "centaur.json:12:9", where that stands; the nearest enclosing place when `pointer` itself was left to
+  /// its default. Behind "/inputs/<name>/recipe" stand the pointers of that recipe.
+  std::string where(const std::string& pointer) const;
+  /// "centaur.json:12:9: /ops/0/at", for messages about what stands there.
   std::string place(const std::string& pointer) const;
 };
+
+/// All that a recipe sets, by JSON pointer, as text: `"joint"`, `1.2`, `[0, -90, 0]`; those of recipes inside
+/// it behind "/inputs/<name>/recipe". Without what no result depends on ("$schema", "recipe_version").
+std::map<std::string, std::string> recipe_settings(const Recipe& recipe);
 
 /// Digest of what the recipe asks for: every value that can change the result, those of recipes inside it
 /// too, but no path, since where files lie changes nothing (their contents have digests of their own), and

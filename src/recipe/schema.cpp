@@ -445,6 +445,108 @@ Json output() {
                                {8})},
   });
 }
+// A budget: the most, or both ends.
+Json budget(const char* unit) {
+  const Json limit = {{"type", "number"}, {"minimum", 0}, {"unit", unit}};
+  const Json range = closed_object(
+      {{"min", described("At least.", limit, {1})}, {"max", described("At most.", limit, {6000})}});
+  return {{"anyOf", {limit, range}}, {"unit", unit}};
+}
+
+Json expect() {
+  const auto of = [](const char* what, const char* unit, Json example) {
+    return described(std::string(what) + ": the most, or an object with min and max.", budget(unit),
+                     Json::array({std::move(example), {{"min", 1}}}));
+  };
+  return closed_object({
+      {"triangles", of("Triangles of the result", "triangles", 6000)},
+      {"vertices", of("Vertices, welded", "vertices", 8000)},
+      {"joints", of("Joints", "joints", 80)},
+      {"influences", of("Joints that a vertex follows", "joints", 4)},
+      {"materials", of("Materials", "materials", 8)},
+      {"images", of("Images", "images", 4)},
+      {"morph_targets", of("Morph targets", "targets", 16)},
+      {"clips", of("Clips", "clips", 40)},
+      {"bytes", of("Size of the GLB", "bytes", 4000000)},
+      {"watertight",
+       described("Whether the surface is closed (true) or open (false).", {{"type", "boolean"}}, {true})},
+      {"clip_names", described("Clips that must be there.", {{"type", "array"}, {"items", text()}},
+                               Json::array({Json::array({"Walk", "Idle"})}))},
+  });
+}
+
+Json variables() {
+  const Json plain = {{"type", {"string", "number", "boolean", "array"}}};
+  const Json limit = {{"type", "number"}, {"unit", "that of the variable"}};
+  const Json declared = closed_object(
+      {{"type", described("What it may be; by default what `default` is.",
+                          {{"type", "string"}, {"enum", {"string", "number", "integer", "boolean", "list"}}},
+                          {"number"})},
+       {"default", described("Its value unless --set gives another.",
+                             {{"type", {"string", "number", "boolean", "array"}}}, {1.2})},
+       {"choices", described("The values it may have.", {{"type", "array"}, {"minItems", 1}},
+                             Json::array({Json::array({"L", "R"})}))},
+       {"min", described("The least number.", limit, {0})},
+       {"max", described("The largest number.", limit, {2})},
+       {"description", described("What it is for.", {{"type", "string"}}, {"Size of the rider."})}},
+      {"default"});
+  return {{"type", "object"}, {"additionalProperties", {{"anyOf", {plain, declared}}}}};
+}
+
+Json matrix() {
+  const Json cells = {{"type", "array"}, {"items", {{"type", "object"}}}};
+  return {{"type", "object"},
+          {"properties",
+           {{"include", described("Further cells: a value for every axis, and variables of their own.", cells,
+                                  {{{{"body", "fox"}, {"torso", "knight"}}}})},
+            {"exclude", described("Combinations to leave out.", cells, {{{{"body", "wolf"}}}})}}},
+          {"additionalProperties", {{"type", "array"}, {"minItems", 1}}}};
+}
+
+// What any value but a name of a file may be instead: a reference to a variable.
+Json reference() {
+  return {{"type", "string"}, {"pattern", R"(\$\{[^}]+\})"}};
+}
+
+bool takes_references(const Json& schema) {
+  if (!schema.contains("type")) return schema.contains("enum");
+  const Json& type = schema.at("type");
+  if (type == "string") return schema.contains("pattern") || schema.contains("enum");
+  return type == "number" || type == "integer" || type == "boolean" || type == "array";
+}
+
+Json include_path() {
+  return described(
+      "A value from another file, laid under the members beside it: file.json, or "
+      "file.json#/pointer.",
+      {{"type", "string"}, {"minLength", 1}}, {"limbs.json#/ops/0"});
+}
+
+Json included() {
+  return {{"type", "object"}, {"required", {"include"}}, {"properties", {{"include", include_path()}}}};
+}
+
+// Lets each value of a recipe be a reference to a variable, and each object one from another file. What is
+// said about the property (description, default, unit, examples) stays where it is.
+void open_up(Json& schema) {
+  if (!schema.is_object()) return;
+  if (schema.contains("properties") && schema.contains("type"))
+    for (auto& [key, property] : schema.at("properties").items()) open_up(property);
+  for (const char* key : {"items", "additionalProperties"})
+    if (schema.contains(key)) open_up(schema.at(key));
+  for (const char* key : {"anyOf", "oneOf"})
+    if (schema.contains(key))
+      for (Json& alternative : schema.at(key)) open_up(alternative);
+  const bool is_object = schema.contains("type") && schema.at("type") == "object";
+  if (!is_object && !takes_references(schema)) return;
+  Json rules = Json::object(), said = Json::object();
+  for (const auto& [key, value] : schema.items()) {
+    const bool is_said = key == "description" || key == "default" || key == "examples" || key == "unit";
+    (is_said ? said : rules)[key] = value;
+  }
+  said["anyOf"] = Json::array({std::move(rules), is_object ? included() : reference()});
+  schema = std::move(said);
+}
 }  // namespace
 
 std::string recipe_schema() {
@@ -470,8 +572,27 @@ std::string recipe_schema() {
                                     correctives(), {{{"method", "dqs"}, {"targets", 4}}})},
           {"output",
            described("Files to write, inside the output folder.", output(), {{{"glb", "centaur.glb"}}})},
+          {"expect", described("Budgets that the result has to keep; exit 4 when it does not.", expect(),
+                               {{{"triangles", 6000}, {"influences", 4}, {"watertight", true}}})},
+          {"extends",
+           described("Recipes that this one changes: what stands here is laid over them (merge patch, "
+                     "null takes away), the later over the earlier.",
+                     {{"anyOf", {path(), {{"type", "array"}, {"items", path()}, {"minItems", 1}}}}},
+                     {"base.json", {"base.json", "fast.json"}})},
+          {"vars",
+           described("Variables, written as ${name} in any value; --set NAME=VALUE gives others.",
+                     variables(), {{{"size", 1.2}, {"side", {{"default", "L"}, {"choices", {"L", "R"}}}}}})},
+          {"matrix",
+           described("One recipe for each combination of these values, written as ${matrix.axis}; the "
+                     "name must tell them apart.",
+                     matrix(), {{{"body", {"horse", "wolf"}}, {"torso", {"knight", "farmer"}}}})},
       },
-      {"recipe_version", "name", "inputs", "base"});
+      {});
+  for (const char* key :
+       {"name", "inputs", "base", "ops", "surface", "animation", "correctives", "output", "expect"})
+    open_up(schema.at("properties").at(key));
+  schema["anyOf"] = {{{"required", {"recipe_version", "name", "inputs", "base"}}},
+                     {{"required", {"extends"}}}};
   Json head = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                {"title", "SkinForge recipe"},
                {"description", "Parts of rigged, animated characters grafted into one."}};

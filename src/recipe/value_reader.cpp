@@ -23,7 +23,11 @@ std::string pointer_to(const std::string& pointer, std::string_view key) {
 }
 
 void ValueReader::fail(const std::string& message) const {
-  throw text_error(*file_, value_->place, (pointer_.empty() ? "" : printable(pointer_) + ": ") + message);
+  if (!value_->origin.empty())
+    throw Error(ExitCode::Usage,
+                value_->origin + ": " + (pointer_.empty() ? "" : printable(pointer_) + ": ") + message);
+  throw text_error(value_->file ? *value_->file : *file_, value_->place,
+                   (pointer_.empty() ? "" : printable(pointer_) + ": ") + message);
 }
 
 void ValueReader::fail_expected(const std::string& wanted) const {

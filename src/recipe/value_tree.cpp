@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "base/text.h"
 
@@ -87,6 +88,56 @@ std::string Value::describe() const {
       return fmt::format("a list of {}", items.size());
     case Kind::Object:
       return "an object";
+  }
+  return {};
+}
+
+const Value* Value::find(std::string_view key) const {
+  for (const Member& member : members)
+    if (member.key == key) return &member.value;
+  return nullptr;
+}
+
+Value* Value::find(std::string_view key) {
+  return const_cast<Value*>(std::as_const(*this).find(key));
+}
+
+std::string Value::where() const {
+  return origin.empty() ? fmt::format("{}:{}:{}", file_name(), place.line, place.column) : origin;
+}
+
+namespace {
+std::string quoted(const std::string& text) {
+  std::string escaped = "\"";
+  for (const char c : printable(text)) escaped += c == '"' ? "\\\"" : std::string(1, c);
+  return escaped + "\"";
+}
+}  // namespace
+
+std::string value_text(const Value& value) {
+  const auto joined = [](const auto& items, const auto& text) {
+    std::string all;
+    for (const auto& item : items) all += (all.empty() ? "" : ", ") + text(item);
+    return all;
+  };
+  switch (value.kind) {
+    case Value::Kind::Null:
+      return "null";
+    case Value::Kind::Bool:
+      return value.boolean ? "true" : "false";
+    case Value::Kind::Number:
+      return fmt::format("{}", value.number);
+    case Value::Kind::String:
+      return quoted(value.text);
+    case Value::Kind::Array:
+      return "[" + joined(value.items, value_text) + "]";
+    case Value::Kind::Object:
+      return "{" +
+             joined(value.members,
+                    [](const Value::Member& member) {
+                      return quoted(member.key) + ": " + value_text(member.value);
+                    }) +
+             "}";
   }
   return {};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,9 +28,18 @@ struct Value {
   bool is_ambiguous = false;    ///< YAML's plain yes, no, on, off: a string to us, a boolean to others
   std::vector<Value> items;     ///< of an array
   std::vector<Member> members;  ///< of an object, in file order, each key once
+  std::shared_ptr<const std::string> file;  ///< where it stands; null where nobody said
+  std::string origin;                       ///< of a value from elsewhere: "--set scale=1.2"
 
   /// "the string \"x\"", "the number 1e3", "an object", ... for messages.
   std::string describe() const;
+  /// The member of that key; null where there is none.
+  const Value* find(std::string_view key) const;
+  Value* find(std::string_view key);
+  /// Path of the file; empty where nobody said.
+  std::string file_name() const { return file ? *file : std::string(); }
+  /// "centaur.json:12:9", or the origin.
+  std::string where() const;
 };
 
 struct Value::Member {
@@ -37,6 +47,9 @@ struct Value::Member {
   TextPlace place;
   Value value;
 };
+
+/// The value as JSON in one line, numbers in their shortest form: equal values give equal texts.
+std::string value_text(const Value& value);
 
 constexpr std::size_t kMaxRecipeBytes = 1 << 20;  // ours: a thousand times the largest recipe written so far
 constexpr int kMaxRecipeDepth = 32;               // ours: recipes need 6

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "io/import.h"
+#include "stages/expect_stage.h"
 #include "stages/inputs.h"
 #include "stages/pictures.h"
 
@@ -232,6 +233,16 @@ std::string file_name_of_picture(const std::string& name) {
   return "pictures/" + name + ".png";
 }
 
+// What tells of the result. Called when all stages that the report reads are there.
+void add_report(const Recipe& recipe, const std::vector<ClipRequest>& clips, std::size_t source_count,
+                ReportLevel level, Engine& engine, const ArtifactNames& names) {
+  for (const ClipRequest& clip : clips) {
+    engine.add(make_quality_stage(names, source_count, clip));
+    if (clip.is_animated) engine.add(make_animated_stage(names, clip));
+  }
+  engine.add(make_report_stage(names, recipe, clips, issue_artifacts(recipe, engine, names)));
+  if (level == ReportLevel::Full) engine.add(make_pictures_stage(names, recipe, clips));
+}
 }  // namespace
 
 bool add_imports(const Recipe& recipe, Engine& engine, const Settle& settle, const ArtifactNames& names) {
@@ -273,13 +284,8 @@ void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const A
   if (recipe.correctives.method != RecipeDeform::None) engine.add(make_correct_stage(names, recipe, clips));
   engine.add(make_export_stage(names, recipe, clips));
   engine.add(make_validate_stage(names));
-  if (level == ReportLevel::None) return;
-  for (const ClipRequest& clip : clips) {
-    engine.add(make_quality_stage(names, sources.size(), clip));
-    if (clip.is_animated) engine.add(make_animated_stage(names, clip));
-  }
-  engine.add(make_report_stage(names, recipe, clips, issue_artifacts(recipe, engine, names)));
-  if (level == ReportLevel::Full) engine.add(make_pictures_stage(names, recipe, clips));
+  if (level != ReportLevel::None) add_report(recipe, clips, sources.size(), level, engine, names);
+  if (!recipe.expect.is_empty()) engine.add(make_expect_stage(names, recipe));  // nothing waits for it
 }
 
 void add_preview(const Recipe& recipe, Engine& engine, const ArtifactNames& names) {

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/version.h"
+#include "io/glb_stamp.h"
 #include "stages/corrective_bake.h"
 #include "stages/inputs.h"
 #include "stages/stages.h"
@@ -42,7 +43,7 @@ class Export final : public Stage {
 
   StageInfo info() const override {
     StageInfo info{.name = "export",
-                   .version = 1,
+                   .version = 2,
                    .reads = joined(contents_names(names_, inputs_),
                                    {names_.textured(), names_.graft(), names_.surface()}),
                    .writes = {names_.result(), names_.glb(), names_.obj()}};
@@ -76,7 +77,7 @@ class Export final : public Stage {
     validate(result);
     GlbOptions options = options_;
     options.extras_json = provenance(in);
-    out.put(names_.glb(), write_glb(result, options));
+    out.put(names_.glb(), stamped(write_glb(result, options)));
     out.put(names_.obj(), as_bytes(wants_obj_ ? write_obj(result) : std::string()));
     out.put(names_.result(), std::move(result));
   }
@@ -88,8 +89,10 @@ class Export final : public Stage {
     for (const std::string& input : inputs_)
       for (const SourceFile& file : in.get<InputContents>(names_.contents(input)).files)
         inputs[input].push_back({{"file", file.name}, {"sha256", file.digest.hex()}});
-    const nlohmann::json extras = {
-        {"version", kVersion}, {"recipe_sha256", recipe_digest_.hex()}, {"inputs", std::move(inputs)}};
+    const nlohmann::json extras = {{"version", kVersion},
+                                   {"recipe_sha256", recipe_digest_.hex()},
+                                   {"inputs", std::move(inputs)},
+                                   {kStampKey, unset_stamp()}};
     return extras.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
 

@@ -263,7 +263,7 @@ TEST_F(Build, PlanOfARecipeInARecipeRunsNothing) {
   const auto plan = [&] { return call({"plan", "outer.json", "--cache", "cache", "--report", "json"}); };
   const ProgramResult cold = plan();
   EXPECT_EQ(cold.status, 0) << cold.err;
-  EXPECT_THAT(cold.out, HasSubstr("run   import horse  (never run)"));
+  EXPECT_THAT(cold.out, HasSubstr("run   tailless/import horse  (never run)"));
   EXPECT_THAT(cold.out, HasSubstr("further stages follow"));
   EXPECT_FALSE(fs::exists(folder / "cache"));
   ASSERT_EQ(call(build("outer.json", "out")).status, 0);

@@ -73,8 +73,8 @@ TEST_F(Cli, SchemaOfReports) {
 TEST_F(Cli, HelpNamesEveryVerb) {
   const ProgramResult result = call({"help"});
   EXPECT_EQ(result.status, 0);
-  for (const char* verb :
-       {"build", "check", "plan", "stage", "cache", "inspect", "schema", "version", "help"}) {
+  for (const char* verb : {"build", "check", "plan", "explain", "expand", "diff", "stage", "cache", "inspect",
+                           "schema", "version", "help"}) {
     EXPECT_THAT(result.out, HasSubstr(std::string("\n  ") + verb + " "));
     const ProgramResult about = call({"help", verb});
     EXPECT_EQ(about.status, 0);
@@ -92,7 +92,7 @@ TEST_F(Cli, UsageErrorsOfferTheNearestName) {
       {{"build", "--jbos=3", "x.json"}, "error: unknown option --jbos (nearest: \"--j"},
       {{"build", "x.json", "--reprot", "none"}, "error: unknown option --reprot (nearest: \"--report\""},
       {{}, "error: a command is missing"},
-      {{"cache"}, "error: \"cache\" needs one of: stats, verify, clear, path"},
+      {{"cache"}, "error: \"cache\" needs one of: stats, gc, pin, unpin, verify, clear, path"},
       {{"build"}, "error: RECIPE is required"},
       {{"build", "-j", "0", "x.json"}, "error: --jobs: Value 0 not in range 1 to 1024"},
       {{"build", "-j", "many", "x.json"}, "error: --jobs: Value many not in range 1 to 1024"},
@@ -163,6 +163,10 @@ TEST_F(Cli, WithJsonStdoutIsOneDocument) {
       {{"build", "x.json", "--json"}, 3},
       {{"check", "x.json", "--json"}, 3},
       {{"plan", "x.json", "--json"}, 3},
+      {{"explain", "x.json", "--json"}, 3},
+      {{"expand", "none.json", "--json"}, 3},
+      {{"diff", "none.glb", "none.glb", "--json"}, 3},
+      {{"cache", "gc", "--json"}, 2},
       {{"inspect", "none.glb", "--json"}, 3},
       {{"stage", "run", "x.json", "import a", "--json"}, 3},
       {{"build", "--json", "--oops"}, 2}};
@@ -227,6 +231,51 @@ TEST_F(Cli, CacheUpkeep) {
   write(damaged, "something else");
   EXPECT_EQ(json::parse(call({"cache", "clear", "--cache", "cache", "--json"}).out).at("removed"), 1);
   EXPECT_TRUE(fs::exists(folder / "cache/cas/README"));
+}
+
+TEST_F(Cli, FoldersAreTheRecipesInThem) {
+  fs::create_directories(folder / "many/below");
+  const std::string recipe =
+      R"({"recipe_version": 1, "name": "NAME", "base": "a", "inputs": {"a": "a.glb"}})";
+  const auto named = [&](std::string name) {
+    return std::string(recipe).replace(recipe.find("NAME"), 4, std::move(name));
+  };
+  write("many/b.json", named("b"));
+  write("many/a.yaml", "extends: b.json\nname: a\n");
+  write("many/_part.json", named("part"));
+  write("many/list.json", "[1, 2]");
+  write("many/notes.txt", "none");
+  write("many/below/c.json", named("c"));
+  const auto names = [&](std::vector<std::string> arguments) {
+    std::vector<std::string> found;
+    arguments.insert(arguments.begin(), {"expand", "--json"});
+    const ProgramResult result = call(arguments);
+    EXPECT_EQ(result.status, 0) << result.err;
+    const json answer = json::parse(result.out);
+    for (const json& one : answer.at("recipes")) found.push_back(one.at("name"));
+    return found;
+  };
+  EXPECT_EQ(names({"many"}), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(names({"many", "--shard", "2/2"}), std::vector<std::string>{"b"});
+  EXPECT_EQ(names({"many/below", "many/b.json", "--set", "/output/influences=8"}),
+            (std::vector<std::string>{"c", "b"}));
+  for (const char* shard : {"0/2", "3/2", "1", "1/2x"})
+    EXPECT_EQ(call({"expand", "many", "--shard", shard}).status, 2);
+  fs::create_directories(folder / "nothing");
+  EXPECT_EQ(call({"expand", "nothing"}).status, 2);
+  const json origins =
+      json::parse(call({"expand", "--json", "many/a.yaml"}).out).at("recipes").at(0).at("origins");
+  EXPECT_EQ(origins.at("/name"), "many/a.yaml:2:7");
+  EXPECT_THAT(origins.at("/base").get<std::string>(), StartsWith("many/b.json:1:"));
+}
+
+TEST_F(Cli, CacheGcAndPins) {
+  EXPECT_EQ(call({"cache", "gc", "--cache", "cache"}).status, 2);
+  const ProgramResult gc = call({"cache", "gc", "--cache", "cache", "--max-age", "7", "--json"});
+  EXPECT_EQ(gc.status, 0);
+  EXPECT_EQ(json::parse(gc.out).at("entries"), 0);
+  write("x.json", kNoSuchInput);
+  EXPECT_THAT(call({"cache", "pin", "x.json", "--cache", "cache"}).err, HasSubstr("no build of it"));
 }
 
 // The tool waits on a pipe that nobody reads and gets the signal there.

@@ -120,22 +120,125 @@ TEST(Cache, ClearLeavesForeignFilesAlone) {
   Cache cache(store);
   cache.put_blob(sha256(bytes_of("blob")), bytes_of("blob"));
   cache.put(sample_manifest());
-  cache.put_last_keys("session", {{"import", sha256({})}});
+  RunRecord run;
+  run.note("import", sha256({}), {});
+  cache.put_last_run("session", run);
   store.entries["cas/README"] = bytes_of("not ours");
   EXPECT_EQ(cache.clear(), 3U);
   EXPECT_THAT(store.list("cas"), SizeIs(1));
 }
 
-TEST(Cache, RemembersTheLastKeysOfASession) {
+RunRecord run_of(const std::string& word) {
+  RunRecord run;
+  run.note("import horse", sha256(bytes_of(word)), {{"/inputs/horse", word}});
+  return run;
+}
+
+TEST(Cache, RemembersTheLastRunOfASession) {
   MemoryStore store;
   Cache cache(store);
-  const std::map<std::string, Digest> keys = {{"import horse", sha256(bytes_of("1"))}, {"place", sha256({})}};
-  EXPECT_THAT(cache.last_keys("centaur"), IsEmpty());
-  cache.put_last_keys("centaur", keys);
-  EXPECT_EQ(cache.last_keys("centaur"), keys);
-  EXPECT_THAT(cache.last_keys("mermaid"), IsEmpty());
+  EXPECT_EQ(cache.last_run("centaur"), RunRecord());
+  cache.put_last_run("centaur", run_of("1"));
+  EXPECT_EQ(cache.last_run("centaur"), run_of("1"));
+  EXPECT_EQ(cache.last_run("mermaid"), RunRecord());
   for (auto& [path, bytes] : store.entries) bytes.resize(bytes.size() / 2);
-  EXPECT_THAT(cache.last_keys("centaur"), IsEmpty());
+  EXPECT_EQ(cache.last_run("centaur"), RunRecord());
+}
+
+TEST(Cache, RemembersPastRunsNewestFirst) {
+  MemoryStore store;
+  Cache cache(store);
+  for (std::size_t i = 0; i < Cache::kMaxPastRuns + 2; ++i)
+    cache.put_past_run("centaur", run_of(std::to_string(i)));
+  cache.put_past_run("centaur", run_of("9"));  // as it was before: moves to the front
+  const auto runs = cache.past_runs("centaur");
+  ASSERT_THAT(runs, SizeIs(Cache::kMaxPastRuns));
+  EXPECT_EQ(runs[0], run_of("9"));
+  EXPECT_EQ(runs[1], run_of(std::to_string(Cache::kMaxPastRuns + 1)));
+  EXPECT_EQ(std::count(runs.begin(), runs.end(), run_of("9")), 1);
+  EXPECT_THAT(cache.past_runs("mermaid"), IsEmpty());
+}
+
+TEST(Cache, StoredFailuresAreVerified) {
+  MemoryStore store;
+  Cache cache(store);
+  const Digest key = sha256(bytes_of("key"));
+  EXPECT_FALSE(cache.failure(key));
+  cache.put_failure(key, {ExitCode::Invalid, "two\nlines"});
+  ASSERT_TRUE(cache.failure(key));
+  EXPECT_EQ(cache.failure(key)->code, ExitCode::Invalid);
+  EXPECT_EQ(cache.failure(key)->message, "two\nlines");
+  for (auto& [path, bytes] : store.entries) bytes.back() ^= std::byte{1};
+  EXPECT_FALSE(cache.failure(key));
+  cache.forget_failure(key);
+  EXPECT_THAT(store.entries, IsEmpty());
+}
+
+// Three runs of 10, 20 and 30 bytes; the second is pinned. By hand: what was not asked for longest goes
+// first.
+class Collect : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (int i = 1; i <= 3; ++i) {
+      const std::string text(static_cast<std::size_t>(10 * i), static_cast<char>('0' + i));
+      Manifest manifest = sample_manifest();
+      manifest.key = key(i);
+      manifest.outputs = {{"out", sha256(bytes_of(text)), text.size()}};
+      cache.put_blob(manifest.outputs[0].digest, bytes_of(text));
+      cache.put(manifest);
+      store.ages[path(i)] = 1000.0 * (4 - i);  // the first is the oldest
+    }
+    RunRecord run;
+    run.note("stage", key(2), {});
+    cache.put_last_run("two", run);
+    EXPECT_TRUE(cache.pin("two"));
+    EXPECT_FALSE(cache.pin("never run"));
+  }
+  static Digest key(int i) { return sha256(bytes_of("key" + std::to_string(i))); }
+  static std::string path(int i) { return "ac/" + key(i).hex(); }
+  bool has(int i) { return cache.find(key(i)).has_value(); }
+
+  MemoryStore store;
+  Cache cache{store};
+};
+
+TEST_F(Collect, ByAgeSparesWhatIsPinned) {
+  const Cache::Collected found = cache.collect({.max_age_seconds = 1500, .min_blob_age_seconds = 0});
+  EXPECT_EQ(found.entries, 1U);
+  EXPECT_EQ(found.blobs, 1U);
+  EXPECT_FALSE(has(1));
+  EXPECT_TRUE(has(2));
+  EXPECT_TRUE(has(3));
+  EXPECT_TRUE(cache.unpin("two"));
+  EXPECT_FALSE(cache.unpin("two"));
+  EXPECT_THAT(cache.verify(), IsEmpty());
+}
+
+TEST_F(Collect, BySizeTakesTheOldestFirst) {
+  const std::uint64_t all = cache.stats().bytes;
+  cache.unpin("two");
+  const Cache::Collected found = cache.collect({.max_bytes = all - 1, .min_blob_age_seconds = 0});
+  EXPECT_EQ(found.entries, 1U);
+  EXPECT_FALSE(has(1));
+  EXPECT_TRUE(has(2));
+  cache.collect({.max_bytes = 0, .min_blob_age_seconds = 0});
+  EXPECT_THAT(store.list("ac"), IsEmpty());
+  EXPECT_THAT(store.list("cas"), IsEmpty());
+}
+
+TEST_F(Collect, AHitMakesAnEntryYoung) {
+  cache.unpin("two");
+  EXPECT_TRUE(has(1));
+  cache.collect({.max_age_seconds = 1500, .min_blob_age_seconds = 0});
+  EXPECT_TRUE(has(1));
+  EXPECT_FALSE(has(2));
+}
+
+// Blobs are written before the manifest that names them: young ones stay.
+TEST_F(Collect, SparesResultsOfABuildThatRuns) {
+  cache.put_blob(sha256(bytes_of("new")), bytes_of("new"));
+  EXPECT_EQ(cache.collect({.max_age_seconds = 1e9}).blobs, 0U);
+  EXPECT_EQ(cache.collect({.max_age_seconds = 1e9, .min_blob_age_seconds = 0}).blobs, 1U);
 }
 
 }  // namespace

@@ -488,6 +488,70 @@ TEST(Plan, ResultsSayWhyAStageRan) {
   EXPECT_EQ(results.at("third").reason, "");
 }
 
+// By hand: first run scale 1; then 2 and a stage behind it fails; so its key, and the setting that led to it,
+// are of the first run when it runs at last.
+TEST(Explain, ComparesWithTheRunThatGaveTheKey) {
+  MemoryStore store;
+  Cache cache(store);
+  const auto add_stages = [&](const std::string& scale, bool fails, Engine& engine) {
+    engine.add(text_stage("place", {}, {"a"}, scale));
+    auto field = text_stage("field", {"a"}, {"b"}, "options " + scale);
+    if (fails) field->extra = [](IssueSink&) { throw Error(ExitCode::StageFailed, "no"); };
+    engine.add(std::move(field));
+  };
+  const auto options = [](const std::string& scale) {
+    return EngineOptions{
+        .session = "x",
+        .settings = {{"/scale", scale}, {"/other", "0"}},
+        .reads_setting = [](const StageInfo&, std::string_view name) { return name == "/scale"; }};
+  };
+  for (const bool fails : {false, true}) {
+    const std::string scale = fails ? "2" : "1";
+    Engine engine(cache, options(scale));
+    add_stages(scale, fails, engine);
+    engine.run();
+  }
+  Engine third(cache, options("2"));
+  add_stages("2", false, third);
+  const std::vector<StagePlan> plans = third.plan();
+  EXPECT_THAT(plans[0].changes, IsEmpty());
+  EXPECT_EQ(why_run(plans[1].changes),
+            "/scale: 1 -> 2; parameter parameter: options 1 -> options 2; input a changed");
+  ASSERT_THAT(cache.past_runs("x"), SizeIs(1));
+  EXPECT_EQ(why_run(third.changes_since(cache.past_runs("x")[0])[0]), "/scale: 1 -> 2");
+}
+
+TEST(Engine, FailuresThatWouldComeAgainAreRemembered) {
+  MemoryStore store;
+  Cache cache(store);
+  const Counter runs = counter();
+  const auto build = [&](const std::string& parameter, bool retry, ExitCode code) {
+    Engine engine(cache,
+                  {.remembers_failure = [](const StageInfo&, ExitCode c) { return c == ExitCode::Usage; },
+                   .retry_failed = retry});
+    auto failing = text_stage("first", {}, {"a"}, parameter, runs);
+    failing->extra = [code](IssueSink&) {
+      if (code != ExitCode::Ok) throw Error(code, "x.json:1:2: no joint");
+    };
+    engine.add(std::move(failing));
+    engine.run();
+    return engine.results().at(0);
+  };
+  EXPECT_FALSE(build("A", false, ExitCode::Usage).is_remembered);
+  const StageResult second = build("A", false, ExitCode::Usage);
+  EXPECT_TRUE(second.is_remembered);
+  EXPECT_EQ(second.status, StageStatus::Failed);
+  EXPECT_EQ(second.code, ExitCode::Usage);
+  EXPECT_EQ(second.error, "x.json:1:2: no joint");
+  EXPECT_EQ(*runs, 1);
+  build("B", false, ExitCode::StageFailed);  // another key, and a failure that may pass
+  build("B", false, ExitCode::StageFailed);
+  EXPECT_EQ(*runs, 3);
+  EXPECT_EQ(build("A", true, ExitCode::Ok).status, StageStatus::Ran);
+  EXPECT_EQ(build("A", false, ExitCode::Ok).status, StageStatus::Hit);
+  EXPECT_THAT(store.list("failures"), IsEmpty());
+}
+
 // ---- damage
 
 // Each entry of a warm cache in turn is flipped, cut, emptied or deleted; the result stays right, and

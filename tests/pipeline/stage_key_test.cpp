@@ -72,35 +72,5 @@ TEST(StageKey, RecordsWhatWentIn) {
             (std::vector<HashedField>{{"x", parts.inputs[0].hex()}, {"y", parts.inputs[1].hex()}}));
 }
 
-TEST(WhyRun, ListsEveryDifference) {
-  StageKey now{.digest = sha256({}),
-               .build = "2",
-               .parameters = {{"scale", "1.2"}, {"new", "n"}},
-               .inputs = {{"x", "1"}}};
-  Manifest last;
-  last.build = "1";
-  last.version = 1;
-  last.parameters = {{"scale", "1"}, {"old", "o"}};
-  last.inputs = {{"x", "0"}, {"y", "0"}};
-  const StageInfo info{.name = "place", .version = 3};
-  EXPECT_EQ(why_run(info, now, Digest(), last),
-            "the tool changed; stage version 1 -> 3; parameter scale: 1 -> 1.2; parameter new is new: n; "
-            "parameter old is gone; input x changed; input y is gone");
-  EXPECT_EQ(why_run(info, now, std::nullopt, std::nullopt), "never run");
-  EXPECT_EQ(why_run(info, now, now.digest, last), "its cache entry is missing or damaged");
-  EXPECT_EQ(why_run(info, now, Digest(), std::nullopt), "its last run is no longer in the cache");
-}
-
-TEST(WhyRun, StaysOneLine) {
-  StageKey now;
-  Manifest last;
-  for (int i = 0; i < 10; ++i) {
-    now.inputs.push_back({std::to_string(i), "new"});
-    last.inputs.push_back({std::to_string(i), "old"});
-  }
-  const std::string reason = why_run({.name = "export", .version = 0}, now, sha256({}), last);
-  EXPECT_TRUE(reason.ends_with("input 7 changed; 2 more")) << reason;
-}
-
 }  // namespace
 }  // namespace skinforge

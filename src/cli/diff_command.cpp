@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "base/parallel.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "diff/diff_text.h"
+#include "io/import.h"
+#include "pipeline/blob_store.h"
+#include "report/junit.h"
+
+namespace skinforge {
+using nlohmann::json;
+
+namespace {
+struct Side {
+  Character character;
+  Bytes bytes;  // of the file itself
+};
+
+Side read_side(const std::string& path, Console& console) {
+  std::vector<InputFile> files = read_input_files(path);
+  IssueSink issues;
+  Side side;
+  side.character = build_character(read_scene(files), path, issues);
+  for (const Issue& issue : issues.issues())
+    if (issue.severity == Severity::Warning) console.detail(issue.place + ": " + issue.message);
+  side.bytes = std::move(files.front().bytes);
+  return side;
+}
+
+// "0.05%" of the diagonal, or a plain number.
+double limit_of(const std::string& text, const std::string& whole) {
+  const bool is_percent = text.ends_with('%');
+  const std::string digits = is_percent ? text.substr(0, text.size() - 1) : text;
+  std::size_t used = 0;
+  double value = -1;
+  try {
+    value = std::stod(digits, &used);
+  } catch (const std::exception&) {
+  }
+  if (used != digits.size() || !(value >= 0) || value > 1e9)
+    throw Error(ExitCode::Usage,
+                fmt::format("--threshold {}: expected a number or a percentage from 0", printable(whole)));
+  return is_percent ? value / 100 : value;
+}
+
+DiffThresholds thresholds_of(const std::vector<std::string>& words) {
+  const std::vector<std::string> names = {"geometry", "weights", "animation", "duration", "structure"};
+  DiffThresholds thresholds;
+  for (const std::string& word : words) {
+    const auto equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
+    if (name == "structure" && (value == "any" || value == "none"))
+      thresholds.structure = value == "none";
+    else if (name == "structure")
+      throw Error(ExitCode::Usage, "--threshold structure: expected none (every edit counts) or any");
+    else if (name == "geometry")
+      thresholds.geometry = limit_of(value, word);
+    else if (name == "weights")
+      thresholds.weights = limit_of(value, word);
+    else if (name == "animation")
+      thresholds.animation = limit_of(value, word);
+    else if (name == "duration")
+      thresholds.duration = limit_of(value, word);
+    else
+      throw Error(ExitCode::Usage, fmt::format("--threshold: nothing is called \"{}\"{}", printable(name),
+                                               nearest_hint(name, names)));
+  }
+  return thresholds;
+}
+
+void write_file(const std::string& path, std::span<const std::byte> bytes) {
+  if (!write_file_atomically(path, bytes))
+    throw Error(ExitCode::StageFailed, path + ": cannot write this file");
+}
+
+std::string junit_of(const std::vector<DiffFinding>& findings) {
+  std::vector<TestCase> cases;
+  for (const DiffFinding& f : findings)
+    cases.push_back({"diff", f.group + ", " + f.name, f.is_over ? f.text : "", f.group, 0});
+  return junit_xml(cases);
+}
+
+// B becomes the reference: its bytes take the place of A's, and a note beside it says what that changed.
+void accept(const DiffRequest& request, const Bytes& bytes, const std::string& text, Console& console) {
+  const std::string note =
+      fmt::format("# {} was accepted in the place of {}\n\n```\n{}```\n", request.b, request.a, text);
+  write_file(request.a + ".change.md", std::as_bytes(std::span(note)));
+  write_file(request.a, bytes);
+  console.info(request.a + ": accepted; what changed is in " + request.a + ".change.md");
+}
+}  // namespace
+
+ExitCode diff_command(const CommandLine& line, Console& console) {
+  const DiffRequest& request = line.diff;
+  set_thread_limit(line.jobs);
+  const DiffThresholds thresholds = thresholds_of(request.thresholds);
+  const Side a = read_side(request.a, console), b = read_side(request.b, console);
+  const CharacterDiff diff = compare_characters(a.character, b.character, a.bytes.size(), b.bytes.size());
+  const std::vector<DiffFinding> findings = judge(diff, thresholds);
+  const std::string text = to_text(diff, findings);
+  if (!request.junit.empty()) {
+    const std::string xml = junit_of(findings);
+    write_file(request.junit, std::as_bytes(std::span(xml)));
+  }
+  if (request.accept) accept(request, b.bytes, text, console);
+  const ExitCode code = is_over(findings) && !request.accept ? ExitCode::Different : ExitCode::Ok;
+  if (!line.json) {
+    print_data(text);
+    return code;
+  }
+  json document = to_json(diff, findings);
+  document["a"] = request.a;
+  document["b"] = request.b;
+  document["exit_code"] = static_cast<int>(code);
+  print_data(document.dump(2, ' ', false, json::error_handler_t::replace));
+  return code;
+}
+
+}  // namespace skinforge

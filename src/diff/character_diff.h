@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/character.h"
+
+/// What differs between two characters, A (the reference) and B. Lengths are shares of the diagonal of A's
+/// bounding box in the bind pose; diff.md says how each number is found.
+namespace skinforge {
+
+/// How many of everything one side has.
+struct CharacterCounts {
+  std::size_t joints = 0, vertices = 0, faces = 0, triangles = 0, quads = 0, parts = 0, materials = 0,
+              images = 0, morphs = 0, clips = 0, keys = 0, uv_sets = 0, influences = 0;  ///< most of a vertex
+  std::size_t components = 0, open_edges = 0, non_manifold_edges = 0;
+  std::uint64_t bytes = 0;  ///< of the file
+};
+
+struct StructureDiff {
+  CharacterCounts a, b;
+  /// One sentence each: joints, parents, clips, materials, images, morph targets that one side lacks or has
+  /// otherwise.
+  std::vector<std::string> edits;
+};
+
+/// Distances from the vertices of each side to the surface of the other, in both directions.
+struct GeometryDiff {
+  double max = 0, p99 = 0, mean = 0;
+  std::size_t unmatched_a = 0, unmatched_b = 0;  ///< vertices without a counterpart near them
+  double area_a = 0, area_b = 0;                 ///< square metres
+};
+
+/// L1 distance of the weights of corresponding vertices, in [0, 2].
+struct SkinDiff {
+  double max = 0, mean = 0;
+  std::string joint;        ///< heaviest of A at the vertex with the largest
+  std::size_t changed = 0;  ///< vertices beyond 1/255, the step of 8-bit weights
+};
+
+/// One clip that both sides have.
+struct ClipDiff {
+  std::string clip;
+  double duration_a = 0, duration_b = 0;  ///< seconds
+  std::size_t keys_a = 0, keys_b = 0;
+  double max = 0;              ///< largest distance of a skinned vertex
+  double rms = 0;              ///< over all vertices and times
+  double time = 0;             ///< seconds, of the largest
+  std::string joint;           ///< heaviest of A at that vertex
+  double joint_max = 0;        ///< largest distance of a joint
+  double joint_angle_deg = 0;  ///< largest turn between corresponding joints, model space
+};
+
+struct CharacterDiff {
+  double diagonal = 0;  ///< metres, of A
+  StructureDiff structure;
+  GeometryDiff geometry;
+  SkinDiff skin;
+  std::vector<ClipDiff> clips;  ///< in A's order
+
+  /// The clip with the largest error; null when there is none.
+  const ClipDiff* worst_clip() const;
+};
+
+/// Compares two sound characters. Both may be anything; without a mesh the distances are 0. Parallel over
+/// clips and vertices, same result for any number of threads. `bytes`: sizes of the files, for the counts.
+CharacterDiff compare_characters(const Character& a, const Character& b, std::uint64_t bytes_a = 0,
+                                 std::uint64_t bytes_b = 0);
+
+/// What is still the same: shares of the diagonal, weights in [0, 2], seconds. Above it is a difference.
+struct DiffThresholds {
+  double geometry = 1e-5;   ///< ours: ten times what 32-bit floats leave of a character of metres
+  double weights = 0.01;    ///< ours: two steps of 8-bit weights
+  double animation = 5e-4;  ///< ours: a millimetre on a man; the eye begins to see twice that
+  double duration = 1e-3;   ///< ours: a sixteenth of a frame at 60 Hz
+  bool structure = true;    ///< whether an edit of the structure is one
+};
+
+/// One verdict: what was measured against which threshold.
+struct DiffFinding {
+  std::string group;  ///< "structure", "geometry", "skin", "animation"
+  std::string name;   ///< "surface distance", "clip Gallop"
+  std::string text;   ///< one sentence with values
+  bool is_over = false;
+};
+
+/// All verdicts in the order of the groups; those that are over first decide about exit 5.
+std::vector<DiffFinding> judge(const CharacterDiff& diff, const DiffThresholds& thresholds);
+bool is_over(const std::vector<DiffFinding>& findings);
+
+}  // namespace skinforge

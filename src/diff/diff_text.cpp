@@ -1,0 +1,125 @@
+#include "diff/diff_text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+
+namespace skinforge {
+using nlohmann::json;
+
+namespace {
+struct Count {
+  const char* name;
+  std::uint64_t CharacterCounts::*value;
+};
+constexpr std::array kCounts = {Count{"bytes", &CharacterCounts::bytes},
+                                Count{"joints", &CharacterCounts::joints},
+                                Count{"vertices", &CharacterCounts::vertices},
+                                Count{"faces", &CharacterCounts::faces},
+                                Count{"triangles", &CharacterCounts::triangles},
+                                Count{"quads", &CharacterCounts::quads},
+                                Count{"components", &CharacterCounts::components},
+                                Count{"open edges", &CharacterCounts::open_edges},
+                                Count{"non-manifold edges", &CharacterCounts::non_manifold_edges},
+                                Count{"parts", &CharacterCounts::parts},
+                                Count{"materials", &CharacterCounts::materials},
+                                Count{"images", &CharacterCounts::images},
+                                Count{"UV sets", &CharacterCounts::uv_sets},
+                                Count{"morph targets", &CharacterCounts::morphs},
+                                Count{"influences", &CharacterCounts::influences},
+                                Count{"clips", &CharacterCounts::clips},
+                                Count{"keys", &CharacterCounts::keys}};
+
+std::string ratio(std::uint64_t a, std::uint64_t b) {
+  if (a == b) return "";
+  return a == 0 ? "  new" : fmt::format("  x {:.3g}", double(b) / double(a));
+}
+
+std::string counts_text(const StructureDiff& diff) {
+  std::string text = fmt::format("{:<20}{:>12}{:>12}\n", "", "A", "B");
+  for (const Count& count : kCounts)
+    text += fmt::format("{:<20}{:>12}{:>12}{}\n", count.name, diff.a.*count.value, diff.b.*count.value,
+                        ratio(diff.a.*count.value, diff.b.*count.value));
+  return text;
+}
+
+std::string clips_text(const std::vector<ClipDiff>& clips) {
+  if (clips.empty()) return "";
+  std::string text = "clips, % of the diagonal\n";
+  text += fmt::format("  {:<24}{:>10}{:>10}{:>10}  {:<16}{:>10}{:>9}{:>16}\n", "", "max", "rms", "at s", "on",
+                      "joints", "turn", "keys");
+  for (const ClipDiff& c : clips)
+    text += fmt::format("  {:<24}{:>10.4g}{:>10.4g}{:>10.4g}  {:<16}{:>10.4g}{:>8.3g}°{:>16}\n",
+                        printable(c.clip), 100 * c.max, 100 * c.rms, c.time, printable(c.joint),
+                        100 * c.joint_max, c.joint_angle_deg, fmt::format("{} -> {}", c.keys_a, c.keys_b));
+  return text;
+}
+
+json to_json(const CharacterCounts& counts) {
+  json object = json::object();
+  for (const Count& count : kCounts) {
+    std::string name = count.name;
+    for (char& c : name) c = c == ' ' || c == '-' ? '_' : c == 'U' ? 'u' : c == 'V' ? 'v' : c;
+    object[name] = counts.*count.value;
+  }
+  return object;
+}
+
+json to_json(const ClipDiff& c) {
+  return {{"clip", c.clip},
+          {"max", c.max},
+          {"rms", c.rms},
+          {"time", c.time},
+          {"joint", c.joint},
+          {"joint_max", c.joint_max},
+          {"joint_angle_deg", c.joint_angle_deg},
+          {"duration_a", c.duration_a},
+          {"duration_b", c.duration_b},
+          {"keys_a", c.keys_a},
+          {"keys_b", c.keys_b}};
+}
+}  // namespace
+
+std::string to_text(const CharacterDiff& diff, const std::vector<DiffFinding>& findings) {
+  std::string text = counts_text(diff.structure);
+  for (const std::string& edit : diff.structure.edits) text += "  " + printable(edit) + "\n";
+  if (diff.geometry.unmatched_a + diff.geometry.unmatched_b > 0)
+    text += fmt::format("  {} vertices of A and {} of B have no counterpart\n", diff.geometry.unmatched_a,
+                        diff.geometry.unmatched_b);
+  text += clips_text(diff.clips);
+  for (const DiffFinding& f : findings)
+    text +=
+        fmt::format("{} {}, {}: {}\n", f.is_over ? "!" : " ", f.group, printable(f.name), printable(f.text));
+  return text;
+}
+
+json to_json(const CharacterDiff& diff, const std::vector<DiffFinding>& findings) {
+  json clips = json::array(), verdicts = json::array();
+  for (const ClipDiff& clip : diff.clips) clips.push_back(to_json(clip));
+  for (const DiffFinding& f : findings)
+    verdicts.push_back({{"group", f.group}, {"name", f.name}, {"text", f.text}, {"is_over", f.is_over}});
+  return {
+      {"diagonal_metres", diff.diagonal},
+      {"structure",
+       {{"a", to_json(diff.structure.a)}, {"b", to_json(diff.structure.b)}, {"edits", diff.structure.edits}}},
+      {"geometry",
+       {{"max", diff.geometry.max},
+        {"p99", diff.geometry.p99},
+        {"mean", diff.geometry.mean},
+        {"unmatched_a", diff.geometry.unmatched_a},
+        {"unmatched_b", diff.geometry.unmatched_b},
+        {"area_a", diff.geometry.area_a},
+        {"area_b", diff.geometry.area_b}}},
+      {"skin",
+       {{"max", diff.skin.max},
+        {"mean", diff.skin.mean},
+        {"joint", diff.skin.joint},
+        {"changed", diff.skin.changed}}},
+      {"clips", std::move(clips)},
+      {"findings", std::move(verdicts)}};
+}
+
+}  // namespace skinforge
