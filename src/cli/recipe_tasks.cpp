@@ -81,8 +81,8 @@ ResolvedRecipe only_recipe(const CommandLine& line) {
   std::vector<ResolvedRecipe> recipes = resolve_recipes(line.recipes.front(), line.choice);
   if (recipes.size() == 1) return std::move(recipes.front());
   std::string cells;
-  for (const ResolvedRecipe& recipe : recipes) cells += "\n  " + recipe.variant;
-  throw Error(ExitCode::Usage, fmt::format("{}: this recipe makes {} characters; choose one with --only:{}",
+  for (const ResolvedRecipe& recipe : recipes) cells += (cells.empty() ? "" : " or ") + recipe.variant;
+  throw Error(ExitCode::Usage, fmt::format("{}: this recipe makes {} characters; choose one with --only {}",
                                            line.recipes.front(), recipes.size(), cells));
 }
 

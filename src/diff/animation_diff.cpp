@@ -115,6 +115,7 @@ ClipDiff compare_clip(const Character& a, const Character& b, const Clip& of_a, 
     }
     if (diagonal > 0) compare_joints(player_a, player_b, same, diagonal, diff);
   }
+  diff.is_compared = compared > 0 || a.mesh.vertex_count() == 0;
   if (worst.is_valid()) diff.joint = heaviest_joint(a, worst);
   diff.max = diagonal > 0 ? std::sqrt(diff.max) / diagonal : 0;
   diff.rms = diagonal > 0 && compared > 0 ? std::sqrt(squares / double(compared)) / diagonal : 0;

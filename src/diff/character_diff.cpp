@@ -25,7 +25,11 @@ DiffFinding structure_finding(const StructureDiff& diff, const DiffThresholds& t
           thresholds.structure};
 }
 
+// What cannot be compared is not the same.
 DiffFinding clip_finding(const ClipDiff& clip, const DiffThresholds& thresholds) {
+  if (!clip.is_compared)
+    return {"animation", "clip " + clip.clip,
+            "no vertex of A has a counterpart in B to compare its motion with", true};
   std::string text = fmt::format("a vertex moves otherwise by up to {} of the diagonal (limit {})",
                                  percent(clip.max), percent(thresholds.animation));
   if (clip.max > 0) text += fmt::format(", at {:.4g} s on \"{}\"", clip.time, clip.joint);

@@ -45,6 +45,7 @@ struct ClipDiff {
   std::string clip;
   double duration_a = 0, duration_b = 0;  ///< seconds
   std::size_t keys_a = 0, keys_b = 0;
+  bool is_compared = true;     ///< false: A has vertices, and none of them has a counterpart in B
   double max = 0;              ///< largest distance of a skinned vertex
   double rms = 0;              ///< over all vertices and times
   double time = 0;             ///< seconds, of the largest

@@ -70,6 +70,7 @@ json to_json(const CharacterCounts& counts) {
 
 json to_json(const ClipDiff& c) {
   return {{"clip", c.clip},
+          {"compared", c.is_compared},
           {"max", c.max},
           {"rms", c.rms},
           {"time", c.time},

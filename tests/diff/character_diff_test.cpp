@@ -75,6 +75,20 @@ TEST(CharacterDiff, FindsTheWorstMomentOfAClip) {
 }
 
 // A middle key that a local tolerance thought to be needless is missed at its time, not at the ends.
+// Moved as a whole no vertex finds its counterpart: that is told, and is a difference whatever the limit.
+TEST(CharacterDiff, WhatCannotBeComparedIsNotTheSame) {
+  Character moved = flag(1);
+  for (Vec3& p : moved.mesh.positions) p += Vec3(0, 100, 0);
+  const CharacterDiff diff = compare_characters(flag(1), moved);
+  ASSERT_EQ(diff.clips.size(), 1U);
+  EXPECT_FALSE(diff.clips[0].is_compared);
+  DiffThresholds loose;
+  loose.geometry = loose.animation = 1000;
+  const auto findings = judge(diff, loose);
+  EXPECT_TRUE(findings.back().is_over);
+  EXPECT_THAT(findings.back().text, HasSubstr("no vertex of A has a counterpart"));
+}
+
 TEST(CharacterDiff, LooksAtKeysOfBothSides) {
   Character b = flag(1);
   auto& rotation = b.clips[0].joints[0].rotation;
