@@ -94,24 +94,31 @@ std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(std::span<
   SF_EXPECT(scope.subset.empty() || scope.subset.size() == triangles.size());
   SF_EXPECT(scope.groups.empty() || scope.groups.size() == triangles.size());
   const double tolerance = tolerance_of(positions);
-  const TriangleBvh bvh(positions, triangles);
   const auto is_asked = [&](std::int32_t t) {
     return scope.subset.empty() || scope.subset[static_cast<std::size_t>(t)];
   };
   const auto are_one_group = [&](std::int32_t s, std::int32_t t) {
     return !scope.groups.empty() && scope.groups[s] >= 0 && scope.groups[s] == scope.groups[t];
   };
+  // A tree of those that are asked about, which are often few.
+  std::vector<std::int32_t> asked;
+  std::vector<Corners> corners;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (is_asked(static_cast<std::int32_t>(t)))
+      asked.push_back(static_cast<std::int32_t>(t)), corners.push_back(triangles[t]);
+  const TriangleBvh bvh(positions, corners);
   std::vector<std::vector<std::int32_t>> partners(triangles.size());
   parallel_chunks(triangles.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto id = static_cast<std::int32_t>(i);
-      if (!is_asked(id)) continue;
       Box3 box;
       for (const std::int32_t v : triangles[i]) box.extend(positions[v]);
-      for (const std::int32_t other : bvh.overlapping(box.min(), box.max())) {
-        if (other == id || (other < id && is_asked(other))) continue;  // the other one finds this pair
-        if (are_one_group(id, other)) continue;
-        if (triangles_intersect(positions, triangles[i], triangles[other], tolerance))
+      for (const std::int32_t found : bvh.overlapping(box.min(), box.max())) {
+        const std::int32_t other = asked[static_cast<std::size_t>(found)];
+        const bool finds_this = is_asked(id) && other <= id;  // the other one finds this pair
+        if (finds_this || are_one_group(id, other)) continue;
+        const auto& [first, second] = is_asked(id) ? std::pair(id, other) : std::pair(other, id);
+        if (triangles_intersect(positions, triangles[first], triangles[second], tolerance))
           partners[i].push_back(other);
       }
     }
