@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "animation/morphing.h"
 #include "animation/sampling.h"
 #include "base/parallel.h"
 #include "diff/structure_diff.h"
@@ -46,26 +47,12 @@ class Player {
     const Pose pose = sample(character_.skeleton, clip_, time);
     model_from_joint_ = model_from_joint(character_.skeleton, pose);
     const auto palette = skinning_palette(character_.skeleton, pose);
-    positions_ = linear_blend(morphed(time), character_.weights, palette);
+    positions_ = linear_blend(morphed_positions(character_, clip_, time), character_.weights, palette);
   }
   const std::vector<Vec3>& positions() const { return positions_; }
   const std::vector<Affine3>& joints() const { return model_from_joint_; }
 
  private:
-  std::vector<Vec3> morphed(double time) const {
-    if (character_.morphs.empty()) return character_.mesh.positions;
-    std::vector<double> weights;
-    for (const MorphTarget& target : character_.morphs) weights.push_back(target.default_weight);
-    for (const MorphTracks& tracks : clip_.morphs) {
-      if (tracks.weights.is_empty()) continue;
-      const std::vector<double> now = sample(tracks.weights, time);
-      std::size_t next = 0;  // targets of a part in their order
-      for (std::size_t t = 0; t < character_.morphs.size(); ++t)
-        if (character_.morphs[t].part == tracks.part && next < now.size()) weights[t] = now[next++];
-    }
-    return apply_morphs(character_.mesh.positions, character_.morphs, weights);
-  }
-
   const Character& character_;
   const Clip& clip_;
   std::vector<Affine3> model_from_joint_;

@@ -37,18 +37,6 @@ Vec3 unit_or_zero(const Vec3& v) {
 
 }  // namespace
 
-std::vector<Vec3> apply_morphs(std::span<const Vec3> positions, std::span<const MorphTarget> morphs,
-                               std::span<const double> morph_weights) {
-  SF_EXPECT(morphs.size() == morph_weights.size());
-  std::vector<Vec3> moved(positions.begin(), positions.end());
-  for (std::size_t t = 0; t < morphs.size(); ++t) {
-    if (morph_weights[t] == 0) continue;
-    for (std::size_t i = 0; i < morphs[t].vertices.size(); ++i)
-      moved[morphs[t].vertices[i].index()] += morph_weights[t] * morphs[t].offsets[i];
-  }
-  return moved;
-}
-
 std::vector<Vec3> linear_blend(std::span<const Vec3> positions, const SkinWeights& weights,
                                std::span<const Affine3> palette) {
   SF_EXPECT(positions.size() == weights.vertex_count());

@@ -7,11 +7,6 @@
 
 namespace skinforge {
 
-/// Positions moved by the morph targets: p_v + sum of weight * offset (glTF order: morph first, skin after).
-/// `positions`: #V, bind pose, metres. `morph_weights`: one per target; targets of weight 0 cost nothing.
-std::vector<Vec3> apply_morphs(std::span<const Vec3> positions, std::span<const MorphTarget> morphs,
-                               std::span<const double> morph_weights);
-
 /// Linear blend skinning (ETH Eq. 3): v' = (sum of w_j * palette_j) v.
 /// `positions`: #V, bind pose, metres (morphed first where the pose has morph weights). `weights`: one row a
 /// vertex; rows are used as they are, not normalised; a vertex without influences stays. `palette`: one

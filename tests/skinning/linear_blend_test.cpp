@@ -80,16 +80,6 @@ TEST(LinearBlend, NormalsFollowTheInverseTranspose) {
   EXPECT_EQ(turned[2], Vec3(0, 0, 0));
 }
 
-// By hand: 0.5 * (0, 2, 0) on vertex 1 only; a target of weight 0 is not applied.
-TEST(LinearBlend, MorphsAddTheirOffsets) {
-  MorphTarget up{"up", PartId(0), 0, {VertexId(1)}, {Vec3(0, 2, 0)}};
-  MorphTarget off{"off", PartId(0), 0, {VertexId(0)}, {Vec3(9, 9, 9)}};
-  const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}};
-  const auto moved = apply_morphs(positions, std::vector{up, off}, std::vector{0.5, 0.0});
-  EXPECT_EQ(moved[0], Vec3(0, 0, 0));
-  EXPECT_EQ(moved[1], Vec3(1, 1, 0));
-}
-
 TEST(LinearBlend, IdentityPaletteGivesTheBindPose) {
   const Cloud cloud = random_cloud(500);
   const std::vector<Affine3> palette(6, Affine3::Identity());
