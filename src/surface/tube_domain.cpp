@@ -3,124 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
-#include <queue>
 #include <set>
+
+#include "surface/border_seams.h"
 
 namespace skinforge {
 namespace {
-
-using Path = std::vector<std::int32_t>;
-
-double length_of(const TrianglePatch& patch, const Path& path) {
-  double length = 0;
-  for (std::size_t k = 0; k + 1 < path.size(); ++k)
-    length += (patch.positions[path[k]] - patch.positions[path[k + 1]]).norm();
-  return length;
-}
-
-// Which of a tube's two borders each loop belongs to.
-using Sides = std::vector<bool>;
-
-// Loops of a patch that become two borders, those of either side joined by seams.
-class Joining {
- public:
-  Joining(const TrianglePatch& patch, const std::vector<IndexLoop>& loops, const Sides& is_on_b)
-      : patch_(patch),
-        is_on_b_(is_on_b),
-        loop_of_vertex_(patch.positions.size(), -1),
-        blocked_(patch.positions.size(), 0) {
-    for (std::size_t l = 0; l < loops.size(); ++l)
-      for (const std::int32_t v : loops[l]) loop_of_vertex_[v] = static_cast<std::int32_t>(l);
-    group_.resize(loops.size());
-    std::iota(group_.begin(), group_.end(), 0);
-    std::map<std::pair<std::int32_t, std::int32_t>, double> edges;
-    for (const Triangle& t : patch.triangles)
-      for (int k = 0; k < 3; ++k) {
-        const std::int32_t a = t[k], b = t[(k + 1) % 3];
-        edges[std::minmax(a, b)] = (patch.positions[a] - patch.positions[b]).norm();
-      }
-    neighbours_.resize(patch.positions.size());
-    for (const auto& [edge, length] : edges) {
-      neighbours_[edge.first].push_back({edge.second, length});
-      neighbours_[edge.second].push_back({edge.first, length});
-    }
-  }
-
-  // Shortest seams until all loops of a side are one; none when seams would touch each other or a border.
-  std::optional<std::vector<Path>> join() {
-    std::vector<Path> seams;
-    for (std::size_t joined = 2; joined < group_.size(); ++joined) {
-      const Path seam = shortest_seam();
-      if (seam.empty()) return std::nullopt;
-      for (const std::int32_t v : seam) blocked_[v] = 1;
-      const std::int32_t from = group_[loop_of_vertex_[seam.front()]],
-                         to = group_[loop_of_vertex_[seam.back()]];
-      for (std::int32_t& g : group_)
-        if (g == to) g = from;
-      seams.push_back(seam);
-    }
-    return seams;
-  }
-
- private:
-  Path shortest_seam() const {
-    Path best;
-    double least = std::numeric_limits<double>::infinity();
-    std::set<std::int32_t> groups(group_.begin(), group_.end());
-    for (const std::int32_t g : groups) {
-      const Path path = shortest_from(g);
-      if (!path.empty() && length_of(patch_, path) < (1 - 1e-6) * least)
-        best = path, least = length_of(patch_, path);
-    }
-    return best;
-  }
-
-  // From the border vertices of a group to the nearest of another group of its side, through free vertices
-  // (Dijkstra).
-  Path shortest_from(std::int32_t group) const {
-    const auto is_beside = [&](std::int32_t loop) {
-      return is_on_b_[static_cast<std::size_t>(loop)] == is_on_b_[static_cast<std::size_t>(group)];
-    };
-    std::vector<double> distance(patch_.positions.size(), std::numeric_limits<double>::infinity());
-    std::vector<std::int32_t> before(patch_.positions.size(), -1);
-    using Entry = std::pair<double, std::int32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    for (std::size_t v = 0; v < loop_of_vertex_.size(); ++v)
-      if (loop_of_vertex_[v] >= 0 && group_[loop_of_vertex_[v]] == group && !blocked_[v])
-        distance[v] = 0, open.push({0, static_cast<std::int32_t>(v)});
-    while (!open.empty()) {
-      const auto [d, v] = open.top();
-      open.pop();
-      if (d > distance[v]) continue;
-      const std::int32_t loop = loop_of_vertex_[v];
-      if (loop >= 0 && group_[loop] != group) {
-        Path path;
-        for (std::int32_t at = v; at >= 0; at = before[at]) path.push_back(at);
-        std::reverse(path.begin(), path.end());
-        return path;
-      }
-      for (const auto& [next, length] : neighbours_[v]) {
-        const std::int32_t other = loop_of_vertex_[next];
-        const bool is_open = other < 0 || (group_[other] != group && is_beside(other));
-        if (!is_open || blocked_[next] || d + length >= distance[next]) continue;
-        distance[next] = d + length;
-        before[next] = v;
-        open.push({distance[next], next});
-      }
-    }
-    return {};
-  }
-
-  const TrianglePatch& patch_;
-  const Sides& is_on_b_;
-  std::vector<std::int32_t> loop_of_vertex_, group_;  // a group is named after one of its loops
-  std::vector<char> blocked_;                         // on a seam
-  std::vector<std::vector<std::pair<std::int32_t, double>>> neighbours_;
-};
 
 // Per border vertex the loop that it belongs to.
 std::vector<std::int32_t> loops_of_vertices(std::size_t fixed, const std::vector<IndexLoop>& borders) {
@@ -133,7 +24,7 @@ std::vector<std::int32_t> loops_of_vertices(std::size_t fixed, const std::vector
 
 // Cuts a patch open along a path from border to border: what lies to its right gets vertices of its own, at
 // the same places. `original`: per vertex, what it was before any cut; grows.
-void cut_open(TrianglePatch& patch, const Path& path, std::vector<std::int32_t>& original) {
+void cut_open(TrianglePatch& patch, const SeamPath& path, std::vector<std::int32_t>& original) {
   std::set<std::pair<std::int32_t, std::int32_t>> along;  // left half edges of the path
   for (std::size_t k = 0; k + 1 < path.size(); ++k) along.insert({path[k], path[k + 1]});
   std::vector<std::pair<std::size_t, std::int32_t>> renamed;  // corner (3 t + k) to a new vertex
@@ -171,7 +62,7 @@ void cut_open(TrianglePatch& patch, const Path& path, std::vector<std::int32_t>&
 
 // The seams of one domain as vertices of the result.
 struct Seam {
-  Path path;
+  SeamPath path;
   int pieces = 1;
   std::int32_t first = 0;  // name of its first inner vertex
 };
@@ -212,7 +103,7 @@ struct Pace {
   double edge = 0, depth = 0;
 };
 
-Pace pace_of(const std::vector<JunctionLoop>& loops, const Sides& is_on_b, bool side) {
+Pace pace_of(const std::vector<JunctionLoop>& loops, const BorderSides& is_on_b, bool side) {
   Pace sum;
   double edges = 0;
   for (std::size_t l = 0; l < loops.size(); ++l) {
@@ -226,7 +117,7 @@ Pace pace_of(const std::vector<JunctionLoop>& loops, const Sides& is_on_b, bool 
 }
 
 // New vertices along a path, an edge's length apart.
-Seam lay_seam(TubeDomain& domain, const TrianglePatch& patch, const Path& path, double edge) {
+Seam lay_seam(TubeDomain& domain, const TrianglePatch& patch, const SeamPath& path, double edge) {
   const int pieces = std::max(1, static_cast<int>(std::lround(length_of(patch, path) / edge)));
   const Seam seam{path, pieces, static_cast<std::int32_t>(domain.fixed + domain.seams.size())};
   for (const double place : spaced_places(patch, path, 0, path.size() - 1, pieces)) {
@@ -238,9 +129,9 @@ Seam lay_seam(TubeDomain& domain, const TrianglePatch& patch, const Path& path, 
 }
 
 std::optional<TubeDomain> domain_between(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops,
-                                         const Sides& is_on_b) {
+                                         const BorderSides& is_on_b) {
   const std::vector<IndexLoop> borders = lay_borders(loops).loops;
-  const auto paths = Joining(patch, borders, is_on_b).join();
+  const auto paths = shortest_seams(patch, borders, is_on_b);
   if (!paths) return std::nullopt;
   TubeDomain domain{patch, {}, {}, {}, patch.fixed};
   std::vector<std::int32_t> original(patch.positions.size());
@@ -248,7 +139,7 @@ std::optional<TubeDomain> domain_between(const TrianglePatch& patch, const std::
   const std::array<Pace, 2> pace = {pace_of(loops, is_on_b, false), pace_of(loops, is_on_b, true)};
   const std::vector<std::int32_t> loop_of_vertex = loops_of_vertices(patch.fixed, borders);
   std::vector<Seam> seams;
-  for (const Path& path : *paths) {
+  for (const SeamPath& path : *paths) {
     const bool side = is_on_b[static_cast<std::size_t>(loop_of_vertex[static_cast<std::size_t>(path[0])])];
     seams.push_back(lay_seam(domain, patch, path, pace[side].edge));
     cut_open(domain.patch, path, original);
@@ -268,10 +159,10 @@ std::optional<TubeDomain> domain_between(const TrianglePatch& patch, const std::
 }
 
 // All ways to lay more than three loops on two sides of two loops each at least, the first loop on A.
-std::vector<Sides> divisions(std::size_t loops) {
-  std::vector<Sides> all;
+std::vector<BorderSides> divisions(std::size_t loops) {
+  std::vector<BorderSides> all;
   for (std::size_t bits = 1; loops > 3 && bits < (std::size_t{1} << (loops - 1)); ++bits) {
-    Sides is_on_b(loops, false);
+    BorderSides is_on_b(loops, false);
     for (std::size_t l = 1; l < loops; ++l) is_on_b[l] = (bits >> (l - 1)) & 1;
     const auto on_b = static_cast<std::size_t>(std::count(is_on_b.begin(), is_on_b.end(), true));
     if (on_b >= 2 && on_b + 2 <= loops) all.push_back(std::move(is_on_b));
@@ -317,7 +208,7 @@ void turn_round(TubeBorder& border) {
 }
 
 std::optional<TubeDomain> tube_domain(const TrianglePatch& patch, const std::vector<JunctionLoop>& loops) {
-  Sides is_on_b(loops.size(), true);
+  BorderSides is_on_b(loops.size(), true);
   is_on_b[0] = false;
   return domain_between(patch, loops, is_on_b);
 }
@@ -327,7 +218,7 @@ std::optional<TubeDomain> even_domain(const TrianglePatch& patch, const std::vec
   const auto difference = [](const TubeDomain& d) {
     return std::max(d.a.points.size(), d.b.points.size()) - std::min(d.a.points.size(), d.b.points.size());
   };
-  for (const Sides& is_on_b : divisions(loops.size()))
+  for (const BorderSides& is_on_b : divisions(loops.size()))
     if (auto domain = domain_between(patch, loops, is_on_b))
       if (!best || difference(*domain) < difference(*best)) best = std::move(domain);
   return best;
