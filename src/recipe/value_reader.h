@@ -22,6 +22,8 @@ class ValueReader {
       : value_(&value), file_(&file), pointer_(std::move(pointer)) {}
 
   const Value& value() const { return *value_; }
+  /// The file that messages name.
+  const std::string& file() const { return *file_; }
   bool is_string() const { return value_->kind == Value::Kind::String; }
   bool is_object() const { return value_->kind == Value::Kind::Object; }
   bool is_array() const { return value_->kind == Value::Kind::Array; }

@@ -1,0 +1,67 @@
+#include <nlohmann/json.hpp>
+
+#include "recipe/recipe.h"
+#include "recipe/schema_parts.h"
+#include "recipe/schema_values.h"
+
+namespace skinforge::schema {
+
+namespace {
+Json output_name(const std::string& extension) {
+  return {
+      {"type", "string"},
+      {"pattern", R"(^([A-Za-z0-9_+]([A-Za-z0-9._+ -]*[A-Za-z0-9_+-])?\/)*[A-Za-z0-9_+][A-Za-z0-9._+ -]*\.)" +
+                      extension + "$"}};
+}
+
+// A budget: the most, or both ends.
+Json budget(const char* unit) {
+  const Json limit = {{"type", "number"}, {"minimum", 0}, {"unit", unit}};
+  const Json range = closed_object(
+      {{"min", described("At least.", limit, {1})}, {"max", described("At most.", limit, {6000})}});
+  return {{"anyOf", {limit, range}}, {"unit", unit}};
+}
+}  // namespace
+
+Json output() {
+  return closed_object({
+      {"glb", described("The character; without it the recipe's name and .glb.", output_name("glb"),
+                        {"centaur.glb"})},
+      {"obj",
+       described("Its polygons as OBJ; without it none is written.", output_name("obj"), {"centaur.obj"})},
+      {"vdb", described("The blended distance field; without it none is written.", output_name("vdb"),
+                        {"centaur.vdb"})},
+      {"animated", described("Clips to draw as animated pictures (APNG) beside the report.",
+                             with_default(all_or_names(), Json::array()), {"all", {"Gallop"}})},
+      {"influences", described("Joints a vertex follows at most.",
+                               {{"type", "integer"},
+                                {"enum", {4, 8}},
+                                {"default", OutputOptions().influences},
+                                {"unit", "joints"}},
+                               {8})},
+  });
+}
+
+Json expect() {
+  const auto of = [](const char* what, const char* unit, Json example) {
+    return described(std::string(what) + ": the most, or an object with min and max.", budget(unit),
+                     Json::array({std::move(example), {{"min", 1}}}));
+  };
+  return closed_object({
+      {"triangles", of("Triangles of the result", "triangles", 6000)},
+      {"vertices", of("Vertices, welded", "vertices", 8000)},
+      {"joints", of("Joints", "joints", 80)},
+      {"influences", of("Joints that a vertex follows", "joints", 4)},
+      {"materials", of("Materials", "materials", 8)},
+      {"images", of("Images", "images", 4)},
+      {"morph_targets", of("Morph targets", "targets", 16)},
+      {"clips", of("Clips", "clips", 40)},
+      {"bytes", of("Size of the GLB", "bytes", 4000000)},
+      {"watertight",
+       described("Whether the surface is closed (true) or open (false).", {{"type", "boolean"}}, {true})},
+      {"clip_names", described("Clips that must be there.", {{"type", "array"}, {"items", text()}},
+                               Json::array({Json::array({"Walk", "Idle"})}))},
+  });
+}
+
+}  // namespace skinforge::schema
