@@ -22,6 +22,7 @@
 #include "io/fbx_scene.h"
 #include "io/file_kind.h"
 #include "io/memory_io_system.h"
+#include "io/obj_check.h"
 #include "io/trs.h"
 
 namespace skinforge {
@@ -252,6 +253,7 @@ AssimpScene read_with_assimp(const std::vector<InputFile>& files) {
   const std::string extension = lower_extension(files.front().path);
   if (extension == ".fbx") fbx.emplace(files.front());
   if (extension == ".dae") check_dae(files.front(), scene.issues);
+  if (extension == ".obj") check_obj(files, scene.issues);
   const Reading& reading = owner->reading.emplace(files, false);
   const aiScene& source = reading.scene();
   scene.skin_ignores_mesh_node = false;

@@ -16,6 +16,7 @@
 #include "io/gltf_json.h"
 #include "io/gltf_uri.h"
 #include "io/import.h"
+#include "io/obj_statements.h"
 
 namespace skinforge {
 namespace {
@@ -105,32 +106,12 @@ std::vector<Reference> gltf_references(const InputFile& file) {
   return list;
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const auto first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-/// Calls `body(keyword, rest)` for each line of an OBJ or MTL file.
-template <class Body>
-void for_each_statement(const Bytes& bytes, Body&& body) {
-  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  while (!text.empty()) {
-    const auto newline = text.find('\n');
-    const std::string_view line = trimmed(text.substr(0, newline));
-    text.remove_prefix(newline == std::string_view::npos ? text.size() : newline + 1);
-    const auto space = line.find_first_of(" \t");
-    if (space != std::string_view::npos) body(line.substr(0, space), trimmed(line.substr(space)));
-  }
-}
-
 /// Names in an OBJ are hints of unknown age: one that leaves the folder is refused, one that is absent is
 /// not.
 std::vector<Reference> obj_references(const InputFile& file) {
   std::vector<Reference> list;
-  for_each_statement(file.bytes, [&](std::string_view keyword, std::string_view rest) {
-    if (keyword == "mtllib") list.push_back({resolve_name(file.path, rest), false});
+  for_each_statement(file.bytes, [&](const ObjStatement& s) {
+    if (s.keyword == "mtllib" && !s.rest.empty()) list.push_back({resolve_name(file.path, s.rest), false});
   });
   return list;
 }
@@ -138,10 +119,12 @@ std::vector<Reference> obj_references(const InputFile& file) {
 /// Textures of a material library; options stand before the name, which is taken to have no blanks then.
 std::vector<Reference> mtl_references(const InputFile& file) {
   std::vector<Reference> list;
-  for_each_statement(file.bytes, [&](std::string_view keyword, std::string_view rest) {
+  for_each_statement(file.bytes, [&](const ObjStatement& s) {
+    const auto& keyword = s.keyword;
     if (!keyword.starts_with("map_") && keyword != "bump" && keyword != "norm" && keyword != "disp") return;
+    std::string_view rest = s.rest;
     if (rest.starts_with('-')) rest = rest.substr(rest.find_last_of(" \t") + 1);
-    list.push_back({resolve_name(file.path, rest), false});
+    if (!rest.empty()) list.push_back({resolve_name(file.path, rest), false});
   });
   return list;
 }

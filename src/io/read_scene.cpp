@@ -1,3 +1,9 @@
+#include <fmt/format.h>
+
+#include <assimp/Importer.hpp>
+
+#include "base/error.h"
+#include "base/text.h"
 #include "io/file_kind.h"
 #include "io/gltf_reader.h"
 #include "io/import.h"
@@ -6,10 +12,23 @@
 
 namespace skinforge {
 
+namespace {
+bool is_known_to_assimp(const std::string& ending) {
+  for (const char* common : {".fbx", ".dae", ".obj"})
+    if (ending == common) return true;
+  return !ending.empty() && Assimp::Importer().IsExtensionSupported(ending);
+}
+}  // namespace
+
 RawScene read_scene(const std::vector<InputFile>& files) {
   const std::string ending = lower_extension(files.front().path);
   if (ending == ".glb" || ending == ".gltf") return read_gltf(files);
   if (ending == ".off") return read_off(files.front());
+  if (!is_known_to_assimp(ending))
+    throw Error(ExitCode::BadInput,
+                fmt::format("{}: no model format ends in \"{}\" (known: .glb, .gltf, .fbx, "
+                            ".dae, .obj, .off and what else Assimp reads)",
+                            printable(files.front().path), printable(ending)));
   return read_in_child(files);
 }
 

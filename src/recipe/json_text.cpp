@@ -42,7 +42,7 @@ class JsonParser {
   Value document() {
     if (text_.starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
     skip_space();
-    if (is_end()) fail("the file is empty");
+    if (is_end()) fail("the file is empty; a recipe is an object with inputs, a base and ops");
     Value value = this->value(1);
     skip_space();
     if (!is_end()) fail("text after the end of the recipe");

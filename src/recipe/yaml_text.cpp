@@ -164,7 +164,8 @@ Value parse_yaml_text(std::string_view text, const std::string& file) {
   try {
     YAML::Parser parser(stream);
     parser.HandleNextDocument(first);
-    if (first.is_empty()) throw text_error(file, {}, "the file is empty");
+    if (first.is_empty())
+      throw text_error(file, {}, "the file is empty; a recipe is an object with inputs, a base and ops");
     if (parser.HandleNextDocument(second))
       throw text_error(file, {}, "a recipe is one YAML document, not several");
   } catch (const YAML::Exception& error) {
