@@ -8,7 +8,7 @@
 #include "cli/commands.h"
 #include "diff/diff_text.h"
 #include "io/import.h"
-#include "pipeline/blob_store.h"
+#include "pipeline/publish.h"
 #include "report/junit.h"
 
 namespace skinforge {
@@ -73,11 +73,6 @@ DiffThresholds thresholds_of(const std::vector<std::string>& words) {
   return thresholds;
 }
 
-void write_file(const std::string& path, std::span<const std::byte> bytes) {
-  if (!write_file_atomically(path, bytes))
-    throw Error(ExitCode::StageFailed, path + ": cannot write this file");
-}
-
 std::string junit_of(const std::vector<DiffFinding>& findings) {
   std::vector<TestCase> cases;
   for (const DiffFinding& f : findings)
@@ -89,8 +84,8 @@ std::string junit_of(const std::vector<DiffFinding>& findings) {
 void accept(const DiffRequest& request, const Bytes& bytes, const std::string& text, Console& console) {
   const std::string note =
       fmt::format("# {} was accepted in the place of {}\n\n```\n{}```\n", request.b, request.a, text);
-  write_file(request.a + ".change.md", std::as_bytes(std::span(note)));
-  write_file(request.a, bytes);
+  write_output(request.a + ".change.md", std::as_bytes(std::span(note)));
+  write_output(request.a, bytes);
   console.info(request.a + ": accepted; what changed is in " + request.a + ".change.md");
 }
 }  // namespace
@@ -105,7 +100,7 @@ ExitCode diff_command(const CommandLine& line, Console& console) {
   const std::string text = to_text(diff, findings);
   if (!request.junit.empty()) {
     const std::string xml = junit_of(findings);
-    write_file(request.junit, std::as_bytes(std::span(xml)));
+    write_output(request.junit, std::as_bytes(std::span(xml)));
   }
   if (request.accept) accept(request, b.bytes, text, console);
   const ExitCode code = is_over(findings) && !request.accept ? ExitCode::Different : ExitCode::Ok;

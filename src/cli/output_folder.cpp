@@ -1,9 +1,8 @@
 #include "cli/output_folder.h"
 
-#include <fstream>
-
 #include "base/error.h"
 #include "base/text.h"
+#include "pipeline/publish.h"
 
 namespace skinforge {
 namespace fs = std::filesystem;
@@ -26,16 +25,8 @@ std::vector<std::string> OutputFolder::write() const {
         throw Error(ExitCode::Usage,
                     printable((folder_ / file.name).string()) + ": is an input; choose another --out");
   for (const File& file : files_) {
-    const fs::path path = folder_ / file.name, temporary = path.string() + ".part";
-    std::ofstream stream(temporary, std::ios::binary);
-    stream.write(reinterpret_cast<const char*>(file.bytes.data()),
-                 static_cast<std::streamsize>(file.bytes.size()));
-    stream.close();
-    if (!stream) fs::remove(temporary, failure);
-    if (!stream) throw Error(ExitCode::StageFailed, printable(path.string()) + ": cannot be written");
-    fs::rename(temporary, path, failure);
-    if (failure) throw Error(ExitCode::StageFailed, printable(path.string()) + ": " + failure.message());
-    paths.push_back(path.string());
+    write_output(folder_ / file.name, file.bytes);
+    paths.push_back((folder_ / file.name).string());
   }
   return paths;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/archive.h"
+#include "base/hash.h"
 
 namespace skinforge {
 
@@ -29,9 +30,14 @@ class BlobStore {
   virtual std::optional<Bytes> read(const std::string& path) const = 0;
   /// Its size, without reading it.
   virtual std::optional<std::uint64_t> size(const std::string& path) const = 0;
-  /// Makes the entry appear whole or not at all, in place of an older one. False when that did not work.
+  /// SHA-256 of the bytes, read piece by piece; none where `read` has none.
+  virtual std::optional<Digest> digest(const std::string& path) const = 0;
+  /// Makes the entry appear whole or not at all, in place of an older one. False when that did not work;
+  /// errno then says why.
   virtual bool write(const std::string& path, std::span<const std::byte> bytes) = 0;
   virtual void remove(const std::string& path) = 0;
+  /// Whether anything at all has that name: an entry, one that cannot be read, a folder, a link.
+  virtual bool is_there(const std::string& path) const = 0;
   /// Notes that the entry was asked for; nothing where that does not work.
   virtual void touch(const std::string& path) = 0;
   /// All entries of a folder by rising name; temporaries are not entries.
@@ -43,8 +49,10 @@ class MemoryStore final : public BlobStore {
  public:
   std::optional<Bytes> read(const std::string& path) const override;
   std::optional<std::uint64_t> size(const std::string& path) const override;
+  std::optional<Digest> digest(const std::string& path) const override;
   bool write(const std::string& path, std::span<const std::byte> bytes) override;
   void remove(const std::string& path) override;
+  bool is_there(const std::string& path) const override;
   void touch(const std::string& path) override;
   std::vector<Entry> list(const std::string& folder) const override;
 
@@ -65,8 +73,10 @@ class DiskStore final : public BlobStore {
 
   std::optional<Bytes> read(const std::string& path) const override;
   std::optional<std::uint64_t> size(const std::string& path) const override;
+  std::optional<Digest> digest(const std::string& path) const override;
   bool write(const std::string& path, std::span<const std::byte> bytes) override;
   void remove(const std::string& path) override;
+  bool is_there(const std::string& path) const override;
   void touch(const std::string& path) override;
   std::vector<Entry> list(const std::string& folder) const override;
 
@@ -83,7 +93,16 @@ class DiskStore final : public BlobStore {
 };
 
 /// Writes a file so that it appears whole or not at all: temporary in the same folder, then rename. False
-/// when any step fails; the temporary is removed then.
+/// when any step fails; the temporary is removed then, and errno says why.
 bool write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// The same so that a power cut cannot take it back or leave a part of it: the bytes are on the disk before
+/// the rename. False also when the disk reports that they are not; what was there before stays. The folder's
+/// own entry is for `sync_folder` to bring to disk, once for all files in it.
+bool write_file_durably(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// Brings the names in a folder to disk; true also where the file system knows no such thing. False: errno
+/// says why.
+bool sync_folder(const std::filesystem::path& folder);
 
 }  // namespace skinforge

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <set>
 #include <sstream>
 
@@ -21,25 +23,32 @@ std::optional<Manifest> Cache::peek(const Digest& key) {
 std::optional<Manifest> Cache::find(const Digest& key) {
   const std::string path = path_of(kManifests, key);
   const std::optional<Bytes> bytes = store_.read(path);
-  if (!bytes) return std::nullopt;
-  std::optional<Manifest> manifest = parse_manifest(text_of(*bytes), key);
+  if (!bytes && !store_.is_there(path)) return std::nullopt;
+  std::optional<Manifest> manifest = bytes ? parse_manifest(text_of(*bytes), key) : std::nullopt;
   if (!manifest) {
     warn("cache-entry-damaged", path, "a damaged cache entry was set aside; its stage runs again");
     store_.remove(path);
     return std::nullopt;
   }
-  for (const Manifest::Output& output : manifest->outputs) {
-    const std::string blob_path = path_of(kBlobs, output.digest);
-    const auto size = store_.size(blob_path);
-    if (size == output.size) continue;
-    warn("cache-blob-missing", blob_path,
-         fmt::format("a result in the cache {}; stage {} runs again",
-                     size ? "has the wrong length" : "is missing", manifest->stage));
-    if (size) store_.remove(blob_path);
-    return std::nullopt;
-  }
+  for (const Manifest::Output& output : manifest->outputs)
+    if (!check_blob(*manifest, output)) return std::nullopt;
   store_.touch(path);
   return manifest;
+}
+
+// False, with a warning, when a result that the manifest names is not there with its bytes.
+bool Cache::check_blob(const Manifest& manifest, const Manifest::Output& output) {
+  const std::string path = path_of(kBlobs, output.digest);
+  const auto digest = store_.digest(path);
+  if (digest == output.digest) return true;
+  if (digest)
+    warn("cache-blob-damaged", path,
+         fmt::format("a damaged result in the cache was set aside; stage {} runs again", manifest.stage));
+  else
+    warn("cache-blob-missing", path,
+         fmt::format("a result in the cache is missing; stage {} runs again", manifest.stage));
+  store_.remove(path);
+  return false;
 }
 
 std::optional<Bytes> Cache::blob(const Digest& digest) {
@@ -56,22 +65,27 @@ std::optional<Bytes> Cache::blob(const Digest& digest) {
 }
 
 bool Cache::has_blob(const Digest& digest, std::uint64_t size) const {
-  return store_.size(path_of(kBlobs, digest)) == size;
+  const std::string path = path_of(kBlobs, digest);
+  return store_.size(path) == size && store_.digest(path) == digest;
 }
 
 bool Cache::put_blob(const Digest& digest, std::span<const std::byte> bytes) {
   const std::string path = path_of(kBlobs, digest);
   if (has_blob(digest, bytes.size())) return true;
+  return keep(path, bytes);
+}
+
+bool Cache::keep(const std::string& path, std::span<const std::byte> bytes) {
   if (store_.write(path, bytes)) return true;
-  warn("cache-not-writable", path, "the cache cannot be written; results are not kept");
+  warn("cache-not-writable", path,
+       fmt::format("the cache cannot be written ({}); results are not kept", std::strerror(errno)));
   return false;
 }
 
 void Cache::put(const Manifest& manifest) {
   const std::string path = path_of(kManifests, manifest.key);
   const std::string text = manifest_text(manifest);
-  if (!store_.write(path, bytes_of(text)))
-    warn("cache-not-writable", path, "the cache cannot be written; results are not kept");
+  keep(path, bytes_of(text));
 }
 
 std::optional<StoredFailure> Cache::failure(const Digest& key) {

@@ -61,14 +61,14 @@ class Cache {
   /// `store` must outlive the cache.
   explicit Cache(BlobStore& store) : store_(store) {}
 
-  /// The manifest of a key, if it is sound and every blob it names is there with the right length. The
-  /// content of the blobs is verified when they are read.
+  /// The manifest of a key, if it is sound and every blob it names is there with the right bytes: all of them
+  /// are read. They are verified again when they are loaded.
   std::optional<Manifest> find(const Digest& key);
   /// A manifest read for information only (the blobs may be gone).
   std::optional<Manifest> peek(const Digest& key);
   /// The blob of that digest; a damaged one is removed and counts as missing.
   std::optional<Bytes> blob(const Digest& digest);
-  /// Whether there is a blob of that digest with the right length.
+  /// Whether there is a blob of that digest with the right bytes.
   bool has_blob(const Digest& digest, std::uint64_t size) const;
   /// Stores a blob unless it is there. False when the store refuses.
   bool put_blob(const Digest& digest, std::span<const std::byte> bytes);
@@ -129,7 +129,10 @@ class Cache {
 
  private:
   bool has_blobs(const Manifest& manifest) const;
+  bool check_blob(const Manifest& manifest, const Manifest::Output& output);
   std::set<Digest> pinned_keys();
+  /// Keeps an entry; warns when that does not work.
+  bool keep(const std::string& path, std::span<const std::byte> bytes);
   void warn(const std::string& code, const std::string& place, const std::string& message);
 
   BlobStore& store_;

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <random>
 
+#include "base/file_digest.h"
 #include "pipeline/blob_store.h"
 
 namespace skinforge {
@@ -55,6 +56,7 @@ bool write_all(int descriptor, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t put = ::write(descriptor, bytes.data(), bytes.size());
     if (put < 0 && errno == EINTR) continue;
+    if (put == 0) errno = EIO;
     if (put <= 0) return false;
     bytes = bytes.subspan(static_cast<std::size_t>(put));
   }
@@ -81,6 +83,26 @@ bool is_running(pid_t process) {
   return ::kill(process, 0) == 0 || errno == EPERM;
 }
 
+// Brings what was written to disk. Never tried again after a failure: the pages may be gone by then, and the
+// second try would say that all is well.
+bool sync(int descriptor) {
+  return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;  // no such thing on this file system
+}
+
+// Temporary in the same folder, `finish(descriptor)`, rename.
+template <class Finish>
+bool replace_file(const fs::path& path, std::span<const std::byte> bytes, Finish finish) {
+  const fs::path temporary = path.parent_path() / temporary_name();
+  File file(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (!file.is_open()) return false;
+  const bool is_whole = write_all(file.descriptor(), bytes) && finish(file.descriptor()) && file.close();
+  if (is_whole && ::rename(temporary.c_str(), path.c_str()) == 0) return true;
+  const int why = errno;
+  ::unlink(temporary.c_str());
+  errno = why;
+  return false;
+}
+
 double age_seconds_of(const fs::path& path) {
   std::error_code error;
   const auto written = fs::last_write_time(path, error);
@@ -90,13 +112,16 @@ double age_seconds_of(const fs::path& path) {
 }  // namespace
 
 bool write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
-  const fs::path temporary = path.parent_path() / temporary_name();
-  File file(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (!file.is_open()) return false;
-  const bool is_whole = write_all(file.descriptor(), bytes) && file.close();
-  if (is_whole && ::rename(temporary.c_str(), path.c_str()) == 0) return true;
-  ::unlink(temporary.c_str());
-  return false;
+  return replace_file(path, bytes, [](int) { return true; });
+}
+
+bool write_file_durably(const fs::path& path, std::span<const std::byte> bytes) {
+  return replace_file(path, bytes, sync);
+}
+
+bool sync_folder(const fs::path& folder) {
+  const File file(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  return file.is_open() && sync(file.descriptor());
 }
 
 std::optional<Bytes> DiskStore::read(const std::string& path) const {
@@ -113,10 +138,15 @@ std::optional<std::uint64_t> DiskStore::size(const std::string& path) const {
   return regular_size(root_ / path);
 }
 
+std::optional<Digest> DiskStore::digest(const std::string& path) const {
+  return size(path) ? sha256_of_file(root_ / path) : std::nullopt;
+}
+
 bool DiskStore::write(const std::string& path, std::span<const std::byte> bytes) {
   const fs::path target = root_ / path;
   std::error_code error;
   fs::create_directories(target.parent_path(), error);
+  if (error) errno = error.value();
   if (error) return false;
   tidy_once(fs::path(path).parent_path());
   if (fs::is_directory(fs::symlink_status(target, error))) fs::remove_all(target, error);  // rename cannot
@@ -134,6 +164,11 @@ void DiskStore::tidy_once(const std::string& folder) {
 void DiskStore::remove(const std::string& path) {
   std::error_code error;
   fs::remove_all(root_ / path, error);
+}
+
+bool DiskStore::is_there(const std::string& path) const {
+  struct stat status {};
+  return ::lstat((root_ / path).c_str(), &status) == 0;
 }
 
 void DiskStore::touch(const std::string& path) {

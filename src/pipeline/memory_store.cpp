@@ -1,3 +1,5 @@
+#include <cerrno>
+
 #include "pipeline/blob_store.h"
 
 namespace skinforge {
@@ -14,9 +16,17 @@ std::optional<std::uint64_t> MemoryStore::size(const std::string& path) const {
   return found == entries.end() ? std::nullopt : std::optional<std::uint64_t>(found->second.size());
 }
 
+std::optional<Digest> MemoryStore::digest(const std::string& path) const {
+  const std::optional<Bytes> bytes = read(path);
+  return bytes ? std::optional(sha256(*bytes)) : std::nullopt;
+}
+
 bool MemoryStore::write(const std::string& path, std::span<const std::byte> bytes) {
   const std::lock_guard lock(mutex_);
-  if (is_read_only) return false;
+  if (is_read_only) {
+    errno = EROFS;
+    return false;
+  }
   entries.insert_or_assign(path, Bytes(bytes.begin(), bytes.end()));
   return true;
 }
@@ -24,6 +34,10 @@ bool MemoryStore::write(const std::string& path, std::span<const std::byte> byte
 void MemoryStore::remove(const std::string& path) {
   const std::lock_guard lock(mutex_);
   if (!is_read_only) entries.erase(path);
+}
+
+bool MemoryStore::is_there(const std::string& path) const {
+  return size(path).has_value();
 }
 
 void MemoryStore::touch(const std::string& path) {

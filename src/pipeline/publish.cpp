@@ -1,6 +1,10 @@
 #include "pipeline/publish.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <set>
 
 #include "base/file_digest.h"
@@ -13,6 +17,17 @@ namespace fs = std::filesystem;
 namespace {
 [[noreturn]] void refuse(const std::string& name, const std::string& why) {
   throw Error(ExitCode::Usage, "output \"" + printable(name) + "\" " + why);
+}
+
+[[noreturn]] void cannot_make(const fs::path& folder, const std::error_code& why) {
+  throw Error(ExitCode::StageFailed,
+              fmt::format("{}: cannot make this folder: {}", printable(folder.string()), why.message()));
+}
+
+[[noreturn]] void cannot_write(const fs::path& path) {
+  const int why = errno;
+  throw Error(ExitCode::StageFailed,
+              fmt::format("{}: cannot be written: {}", printable(path.string()), std::strerror(why)));
 }
 
 bool has_prefix(const fs::path& path, const fs::path& folder) {
@@ -35,7 +50,7 @@ fs::path path_inside(const fs::path& root, const std::string& name) {
   const fs::path planned = fs::weakly_canonical(path.parent_path(), error);
   if (error || !has_prefix(planned, root)) refuse(name, "leads outside the output folder");
   fs::create_directories(path.parent_path(), error);
-  if (error) throw Error(ExitCode::StageFailed, path.parent_path().string() + ": cannot make this folder");
+  if (error) cannot_make(path.parent_path(), error);
   return path;
 }
 
@@ -54,25 +69,32 @@ std::optional<Digest> digest_of_file(const fs::path& path, std::uint64_t size) {
 }
 }  // namespace
 
+void write_output(const fs::path& path, std::span<const std::byte> bytes) {
+  if (!write_file_durably(path, bytes) || !sync_folder(path.parent_path())) cannot_write(path);
+}
+
 std::vector<PublishedFile> publish(Engine& engine, std::span<const OutputFile> files, const fs::path& folder,
                                    std::span<const fs::path> inputs) {
   expect_names(files);
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw Error(ExitCode::StageFailed, folder.string() + ": cannot make this folder");
+  if (error) cannot_make(folder, error);
   const fs::path root = fs::canonical(folder);
 
   std::vector<PublishedFile> published;
+  std::set<fs::path> folders;
   for (const OutputFile& file : files) {
     if (!engine.has(file.artifact)) continue;
     const fs::path path = path_inside(root, file.name);
     expect_no_input(path, file.name, inputs);
     PublishedFile result{file.name, engine.digest(file.artifact), engine.size(file.artifact)};
     result.was_written = digest_of_file(path, result.size) != result.digest;
-    if (result.was_written && !write_file_atomically(path, engine.bytes(file.artifact)))
-      throw Error(ExitCode::StageFailed, path.string() + ": cannot write this file");
+    if (result.was_written && !write_file_durably(path, engine.bytes(file.artifact))) cannot_write(path);
+    if (result.was_written) folders.insert(path.parent_path());
     published.push_back(std::move(result));
   }
+  for (const fs::path& changed : folders)
+    if (!sync_folder(changed)) cannot_write(changed);
   return published;
 }
 

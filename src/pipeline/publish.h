@@ -22,10 +22,15 @@ struct PublishedFile {
   bool was_written = false;  ///< false when the file was there with these bytes
 };
 
-/// Brings artifacts into `folder` (made if need be): temporary file, then rename, only where the present
-/// bytes differ. An output whose artifact is not known (its stage failed) is left out. Throws Error: Usage
-/// for an unsafe or repeated name, for a name whose folder leads outside `folder` by a link, and for a file
-/// listed in `inputs` (paths that must not be overwritten); StageFailed when a file cannot be written.
+/// Writes one output file so that it is there whole, after a power cut too, or as it was before. Throws Error
+/// (StageFailed) "PATH: cannot be written: No space left on device".
+void write_output(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// Brings artifacts into `folder` (made if need be): temporary file, on disk before it is renamed,
+/// only where the present bytes differ. An output whose artifact is not known (its stage failed) is left out.
+/// Throws Error: Usage for an unsafe or repeated name, for a name whose folder leads outside `folder` by a
+/// link, and for a file listed in `inputs` (paths that must not be overwritten); StageFailed when a file
+/// cannot be written.
 std::vector<PublishedFile> publish(Engine& engine, std::span<const OutputFile> files,
                                    const std::filesystem::path& folder,
                                    std::span<const std::filesystem::path> inputs = {});

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-#include "pipeline/blob_store.h"
+#include "pipeline/cache.h"
 #include "pipeline/text_stage.h"
 #include "testing/temporary_folder.h"
 
@@ -48,6 +48,7 @@ TEST(DiskStore, ReadsWhatWasWritten) {
   EXPECT_TRUE(store.write("cas/x", bytes_of("second")));
   EXPECT_EQ(store.read("cas/x"), bytes_of("second"));
   EXPECT_EQ(store.size("cas/x"), 6U);
+  EXPECT_EQ(store.digest("cas/x"), sha256(bytes_of("second")));
   EXPECT_TRUE(store.write("cas/empty", {}));
   EXPECT_EQ(store.read("cas/empty"), Bytes());
   EXPECT_THAT(files_in(folder / "cache/cas"), ::testing::ElementsAre("empty", "x"));  // no temporary stays
@@ -77,12 +78,38 @@ TEST(DiskStore, FoldersAndLinksAreNotEntries) {
   EXPECT_FALSE(store.read("cas/folder"));
   EXPECT_FALSE(store.read("cas/link"));
   EXPECT_FALSE(store.size("cas/link"));
+  EXPECT_FALSE(store.digest("cas/link"));
+  for (const char* name : {"cas/folder", "cas/link"}) EXPECT_TRUE(store.is_there(name));
+  EXPECT_FALSE(store.is_there("cas/nothing"));
   EXPECT_TRUE(store.write("cas/folder", bytes_of("entry")));
   EXPECT_TRUE(store.write("cas/link", bytes_of("entry")));
   EXPECT_EQ(store.read("cas/folder"), bytes_of("entry"));
   EXPECT_EQ(store.read("cas/link"), bytes_of("entry"));
   EXPECT_EQ(DiskStore(folder.path()).read("secret"),
             bytes_of("secret"));  // the link was replaced, not followed
+}
+
+// A manifest that became a folder, or a link to another, is no plain miss: it is told and replaced.
+TEST(DiskStore, AFolderInPlaceOfAManifestIsDamage) {
+  const TemporaryFolder folder;
+  DiskStore store(folder.path());
+  Manifest manifest;
+  manifest.key = sha256(bytes_of("key"));
+  const std::string path = "ac/" + manifest.key.hex();
+  for (const bool is_link : {false, true}) {
+    Cache cache(store);
+    if (is_link)
+      fs::create_symlink("/etc/hostname", folder / path);
+    else
+      fs::create_directories(folder / path / "inside");
+    EXPECT_FALSE(cache.find(manifest.key));
+    ASSERT_THAT(cache.take_warnings(), SizeIs(1));
+    EXPECT_FALSE(cache.find(manifest.key));
+    EXPECT_THAT(cache.take_warnings(), IsEmpty());
+    cache.put(manifest);
+    EXPECT_TRUE(cache.find(manifest.key));
+    cache.clear();
+  }
 }
 
 TEST(DiskStore, RefusesQuietlyWhereItCannotWrite) {

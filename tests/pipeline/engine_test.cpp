@@ -91,19 +91,63 @@ TEST(Engine, AChangeRunsWhatDependsOnItAndNothingElse) {
   EXPECT_THAT(diamond.runs(), ElementsAre(2, 2, 2, 3));
 }
 
+// The bytes stored for "d" are no text; a hit does not look.
 TEST(Engine, AHitStaysUndecodedUntilSomebodyAsks) {
   MemoryStore store;
   Cache cache(store);
   Diamond diamond;
-  diamond.build(cache);
-  for (auto& [path, bytes] : store.entries)
-    if (path.starts_with("cas/")) bytes[0] ^= std::byte{1};  // same length, so only reading it would notice
+  Engine first(cache, {});
+  diamond.add_to(first);
+  first.run();
+  Manifest last = cache.find(first.results().front().key).value();
+  const Bytes garbage(3, std::byte{0xff});
+  last.outputs.front().digest = sha256(garbage);
+  last.outputs.front().size = garbage.size();
+  cache.put_blob(sha256(garbage), garbage);
+  cache.put(last);
+
   Engine engine(cache, {});
   diamond.add_to(engine);
   engine.run();
   EXPECT_TRUE(engine.is_ok());
   EXPECT_THAT(diamond.runs(), ElementsAre(1, 1, 1, 1));
   EXPECT_THAT(cache.take_warnings(), IsEmpty());
+  EXPECT_THROW(engine.get<Text>("d"), Error);
+}
+
+// A byte in the middle of each result: same name, same length.
+TEST(Engine, AHitIsCheckedToTheLastByte) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond diamond;
+  diamond.build(cache);
+  for (auto& [path, bytes] : store.entries)
+    if (path.starts_with("cas/")) bytes[bytes.size() / 2] ^= std::byte{1};
+  EXPECT_EQ(diamond.build(cache), "DBACs");
+  EXPECT_THAT(diamond.runs(), ElementsAre(2, 2, 2, 2));
+  EXPECT_THAT(cache.take_warnings(), SizeIs(1));
+  EXPECT_THAT(cache.verify(), IsEmpty());
+}
+
+// What is damaged after a stage was called a hit is noticed when it is read.
+TEST(Engine, DamageBehindAHitIsNoticedAtTheReader) {
+  MemoryStore store;
+  Cache cache(store);
+  const auto first_batch = [](Engine& engine) { engine.add(text_stage("maker", {}, {"a"}, "A")); };
+  {
+    Engine engine(cache, {});
+    first_batch(engine);
+    engine.run();
+  }
+  Engine engine(cache, {});
+  first_batch(engine);
+  engine.run();
+  store.entries.at("cas/" + engine.digest("a").hex()).back() ^= std::byte{1};
+  engine.add(text_stage("reader", {"a"}, {"b"}, "B"));
+  engine.run();
+  EXPECT_EQ(engine.get<Text>("b").value, "BA");
+  EXPECT_EQ(engine.results().front().status, StageStatus::Ran);
+  EXPECT_THAT(cache.take_warnings(), SizeIs(1));
 }
 
 // Hands its input on under another name.
@@ -617,11 +661,12 @@ TEST(Damage, AResultThatCannotBeMadeAgainFailsTheReader) {
   for (int build = 0; build < 2; ++build) {
     Engine engine(cache, {});
     engine.add(std::make_unique<Drifting>());
+    engine.run();
+    if (build == 1) store.entries.at("cas/" + engine.digest("a").hex()).back() ^= std::byte{1};
     engine.add(text_stage("reader", {"a"}, {"b"}, std::to_string(build)));
     engine.run();
     if (build == 0) {
       EXPECT_TRUE(engine.is_ok());
-      store.entries.at("cas/" + engine.digest("a").hex()).back() ^= std::byte{1};
     } else {
       EXPECT_EQ(engine.results().at(1).code, ExitCode::NotReproducible);
       EXPECT_THAT(engine.results().at(1).error, HasSubstr("stage drifting made other bytes"));

@@ -85,6 +85,22 @@ TEST_F(Publish, ReplacesALinkInsteadOfFollowingIt) {
   EXPECT_EQ(read_text(folder / "out/a.glb"), "GLB");
 }
 
+// Folders that cannot be made, files that cannot replace what is there: the message says why.
+TEST_F(Publish, SaysWhyItCannotWrite) {
+  std::filesystem::create_directories(folder / "out/full.txt/inside");
+  try {
+    write_output(folder / "out/full.txt", bytes_of("x"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::StageFailed);
+    EXPECT_THAT(error.what(), ::testing::EndsWith("out/full.txt: cannot be written: Is a directory"));
+  }
+  EXPECT_THROW(write_output(folder / "nowhere/x", bytes_of("x")), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "nowhere"));
+  for (const auto& item : std::filesystem::directory_iterator(folder / "out"))
+    EXPECT_FALSE(item.path().filename().string().starts_with(".tmp-")) << item.path();
+}
+
 TEST_F(Publish, NeverOverwritesAnInputOrWritesTwice) {
   fs::create_directories(folder / "out");
   std::ofstream(folder / "out/horse.glb") << "input";
