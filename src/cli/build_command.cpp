@@ -62,20 +62,12 @@ void write_timings(const std::vector<StageResult>& stages, const fs::path& folde
     timings.peak_memory = std::max(timings.peak_memory, peak);
   }
   const std::string text = skinforge::to_json(timings);
-  if (!write_file_atomically(folder / "timings.json", std::as_bytes(std::span(text))))
-    throw Error(ExitCode::StageFailed, (folder / "timings.json").string() + ": cannot write this file");
+  write_output(folder / "timings.json", std::as_bytes(std::span(text)));
 }
 
 bool has_run(const std::vector<StageResult>& stages) {
   return std::any_of(stages.begin(), stages.end(),
                      [](const auto& s) { return s.status == StageStatus::Ran; });
-}
-
-// Where the recipe names the file that a failed stage reads.
-std::string place_of(const StageResult& failure, const Recipe& recipe) {
-  for (const std::string& artifact : failure.info.reads)
-    if (const auto setting = setting_of_source(artifact)) return recipe.where(*setting);
-  return recipe.where("");
 }
 
 bool has_failed_only_budgets(Session& session) {
@@ -105,7 +97,7 @@ void build_session(const CommandLine& line, Session& session, Outcome& outcome) 
   if (const auto failure = session.failure()) {
     outcome.code = exit_code(failure);
     outcome.error = failure->error;
-    outcome.place = place_of(*failure, session.recipe());
+    outcome.place = session.recipe().where(setting_of(*failure).value_or(""));
   }
 }
 
@@ -199,8 +191,7 @@ void write_for_ci(const CommandLine& line, const std::vector<Outcome>& outcomes)
   std::vector<BuildVerdict> verdicts;
   for (const Outcome& outcome : outcomes) verdicts.push_back(verdict_of(outcome));
   const auto write = [](const std::string& file, const std::string& text) {
-    if (!file.empty() && !write_file_atomically(file, std::as_bytes(std::span(text))))
-      throw Error(ExitCode::StageFailed, file + ": cannot write this file");
+    if (!file.empty()) write_output(file, std::as_bytes(std::span(text)));
   };
   if (!line.junit.empty()) write(line.junit, junit_xml(verdicts));
   if (!line.sarif.empty()) write(line.sarif, sarif(verdicts, kVersion));

@@ -116,13 +116,21 @@ void Session::tell_trouble() {
   for (const Issue& issue : cache_.take_warnings()) console_.issue(issue);
   std::size_t skipped = 0;
   for (const StageResult& result : engine_.results()) {
-    if (result.status == StageStatus::Failed)
-      console_.error(
-          printable(fmt::format("{} (stage {}{})", result.error, result.info.label(),
-                                result.is_remembered ? ", as before; --retry-failed runs it again" : "")));
+    if (result.status == StageStatus::Failed) {
+      const auto setting = setting_of(result);
+      console_.error(printable(fmt::format(
+          "{}{} (stage {}{})", setting ? recipe_.place(*setting) + ": " : "", result.error,
+          result.info.label(), result.is_remembered ? ", as before; --retry-failed runs it again" : "")));
+    }
     if (result.status == StageStatus::Skipped) ++skipped;
   }
   if (skipped > 0) console_.info(fmt::format("{} stages that depend on it were skipped", skipped));
+}
+
+std::optional<std::string> setting_of(const StageResult& stage) {
+  for (const std::string& artifact : stage.info.reads)
+    if (auto setting = setting_of_source(artifact)) return setting;
+  return std::nullopt;
 }
 
 ExitCode exit_code(const std::optional<StageResult>& failure) {

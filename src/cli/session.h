@@ -61,6 +61,9 @@ std::string session_name(const ResolvedRecipe& recipe);
 /// "hit", "ran", "failed", "skipped".
 const char* status_name(StageStatus status);
 
+/// The setting that names the file which a stage reads, "/inputs/horse"; none for a stage that reads no file.
+std::optional<std::string> setting_of(const StageResult& stage);
+
 /// Exit status of a session whose first failure is `failure`.
 ExitCode exit_code(const std::optional<StageResult>& failure);
 

@@ -1,0 +1,88 @@
+// The hostile corpus through the program: what a person sees of it. scripts/hostile.sh watches memory, time,
+// files and network besides.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "testing/assets.h"
+#include "testing/program.h"
+#include "testing/temporary_folder.h"
+
+namespace skinforge {
+namespace {
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::Program;
+using testing::ProgramResult;
+
+constexpr int kBadInput = 3;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What the case asks for, by the letter of the corpus's README.
+void expect_verdict(const nlohmann::json& item, const ProgramResult& result) {
+  const std::string expect = item.at("expect"), file = item.at("file");
+  const bool is_warned = result.out.find("warning ") != std::string::npos;
+  if (expect == "accept") {
+    EXPECT_EQ(result.status, 0) << result.err;
+  } else if (expect == "accept-warn") {
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(is_warned) << result.out;
+  } else if (expect == "reject") {
+    EXPECT_EQ(result.status, kBadInput) << result.out;
+  } else {
+    EXPECT_TRUE(result.status == kBadInput || is_warned) << result.out;
+  }
+  if (result.status == 0) return;
+  const auto lines = lines_of(result.err);
+  ASSERT_EQ(lines.size(), 1u) << result.err;
+  EXPECT_THAT(lines[0], HasSubstr(fs::path(file).filename().string() + ": "));
+  for (const auto& word : item.value("message_must_contain", nlohmann::json::array()))
+    EXPECT_THAT(lines[0], HasSubstr(word.get<std::string>()));
+}
+
+TEST(Hostile, EveryAssetGetsItsVerdict) {
+  SKINFORGE_NEEDS_SHARED();
+  const testing::TemporaryFolder folder;
+  const fs::path hostile = fs::absolute(testing::shared_file("hostile"));
+  int seen = 0;
+  for (const auto& item : nlohmann::json::parse(std::ifstream(hostile / "index.json"))) {
+    const std::string file = item.at("file"), kind = item.at("kind");
+    if (kind.starts_with("recipe")) continue;
+    SCOPED_TRACE(file);
+    ++seen;
+    expect_verdict(item, Program(SKINFORGE_BINARY, {"inspect", hostile / file}, folder.path()).finish());
+  }
+  EXPECT_EQ(seen, 213);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+// In a build, too, the line names the recipe, the input and the cause, and nothing is written.
+TEST(Hostile, ABrokenInputIsNamedByItsRecipe) {
+  const testing::TemporaryFolder folder;
+  fs::create_directories(folder / "models");
+  std::ofstream(folder / "models/broken.glb") << "glTF, but not really";
+  std::ofstream(folder / "models/notes") << "no model at all";
+  for (const auto& [input, cause] :
+       {std::pair("broken.glb", "broken.glb: "), {"notes", "no model format ends in"}}) {
+    std::ofstream(folder / "r.json") << R"({ "recipe_version": 1, "name": "r",
+  "inputs": { "a": "models/)" << input
+                                     << R"(" }, "base": "a", "ops": [] })";
+    const auto result =
+        Program(SKINFORGE_BINARY, {"build", "r.json", "-q", "--cache", "cache"}, folder.path()).finish();
+    EXPECT_EQ(result.status, kBadInput);
+    EXPECT_THAT(result.err, HasSubstr("r.json:2:20: /inputs/a: "));
+    EXPECT_THAT(result.err, HasSubstr(cause));
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+}
+
+}  // namespace
+}  // namespace skinforge
