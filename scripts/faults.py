@@ -65,6 +65,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("-j", "--jobs", type=int, default=1)
     args = parser.parse_args()
+    sys.stdout.reconfigure(line_buffering=True)
     broken = 0
     for name in args.experiment:
         if name.startswith("sweep"):

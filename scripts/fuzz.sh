@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Fuzzes every parser of untrusted bytes (tests/fuzz) with ASan and UBSan, each for so many minutes; needs clang.
+#   scripts/fuzz.sh [MINUTES] [TARGET ...]        default 1 minute, all targets
+# Seeds: the hostile corpus and the assets of SKINFORGE_SHARED (default ../shared) where they are, data/ and recipes/. What the
+# fuzzers learn stays in build/fuzz/corpus/TARGET; a finding lands in build/fuzz/findings and fails the script. A fixed finding
+# becomes a file in tests/data/fuzz/TARGET, which a test feeds to the parser.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+minutes=${1:-1}
+shift || true
+shared=$(realpath -m -- "${SKINFORGE_SHARED:-../shared}")
+
+if ! command -v clang++ >/dev/null; then
+  echo "fuzz.sh needs clang (Debian: clang, llvm)" >&2
+  exit 2
+fi
+[ -f build/fuzz/build.ninja ] || cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target fuzz >&2
+if [ $# -gt 0 ]; then targets=("$@"); else mapfile -t targets < <(ls tests/fuzz/*.cpp | xargs -n1 basename -s .cpp | grep -vx seeds); fi
+
+# Small files of these endings, from everywhere.
+seeds() {
+  local folder=build/fuzz/seeds/$1 ending file
+  shift
+  mkdir -p "$folder"
+  for ending in "$@"; do
+    find data recipes "$shared" -type f -name "*.$ending" -size -200k -print0 2>/dev/null |
+      while IFS= read -r -d '' file; do cp -f "$file" "$folder/$(sha256sum <"$file" | cut -c1-16)"; done
+  done
+}
+seeds gltf glb gltf
+seeds character glb
+seeds recipe_json json
+seeds recipe_yaml yaml yml
+seeds tgf tgf
+seeds dmat dmat
+seeds off off
+seeds obj obj mtl
+seeds dae dae
+seeds fbx fbx
+seeds image png jpg
+mkdir -p build/fuzz/seeds/{scene,cache} build/fuzz/findings
+find data "$shared/hostile" -type f \( -name '*.glb' -o -name '*.fbx' -o -name '*.obj' -o -name '*.dae' \) -size -100k -print0 |
+  xargs -0 build/fuzz/tests/fuzz/fuzz_seeds build/fuzz/seeds/scene
+for kind in ac cas runs; do
+  find .skinforge/cache/$kind -type f -size -50k -print 2>/dev/null | head -40 |
+    while read -r file; do { printf a; cat "$file"; } >"build/fuzz/seeds/cache/$(basename "$file")"; done
+done
+find build/fuzz/seeds/cache -type f | while read -r file; do # manifests without their header
+  { printf b; tail -n +2 "$file"; } >"$file.json"
+done
+
+failed=0
+for target in "${targets[@]}"; do
+  mkdir -p "build/fuzz/corpus/$target"
+  log=build/fuzz/$target.log
+  if ! ASAN_OPTIONS=allocator_may_return_null=0:detect_leaks=0 build/fuzz/tests/fuzz/fuzz_"$target" \
+    -max_total_time=$((60 * minutes)) -timeout=10 -rss_limit_mb=3072 -malloc_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="build/fuzz/findings/$target-" "build/fuzz/corpus/$target" "build/fuzz/seeds/$target" $([ -d tests/data/fuzz/$target ] && echo tests/data/fuzz/$target) >"$log" 2>&1; then
+    echo "$target: FINDING, see $log"
+    failed=1
+  fi
+  awk -v t="$target" '/number_of_executed_units/ {n=$2} /average_exec_per_sec/ {s=$2} /peak_rss_mb/ {m=$2} END {printf "%-12s %12d executions, %6d a second, %5d MB\n", t, n, s, m}' "$log"
+done
+exit $failed
