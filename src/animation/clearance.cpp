@@ -66,20 +66,46 @@ std::vector<SkinBall> skin_balls(const Character& input, std::span<const JointId
   return balls;
 }
 
-std::vector<Vec3> Clearance::Side::placed(const Pose& pose) const {
+std::vector<float> ball_centers(const Skeleton& skeleton, const MotionSet& set) {
+  std::vector<float> centers;
+  centers.reserve(3 * set.poses.size() * set.balls.size());
+  for (const Pose& pose : set.poses) {
+    const std::vector<Affine3> joints = model_from_joint(skeleton, pose);
+    for (const SkinBall& ball : set.balls) {
+      const Eigen::Vector3f center = (joints[ball.joint.index()] * ball.center).cast<float>();
+      centers.insert(centers.end(), center.data(), center.data() + 3);
+    }
+  }
+  return centers;
+}
+
+Affine3 Clearance::Side::from_model(const Pose& pose) const {
+  return anchor.is_valid() ? Affine3(from_anchor * model_from_joint(input->skeleton, pose, anchor).inverse())
+                           : from_anchor;
+}
+
+std::vector<Vec3> Clearance::Side::bind_places() const {
+  const Pose pose = bind_pose(input->skeleton);
   const std::vector<Affine3> joints = model_from_joint(input->skeleton, pose);
-  const Affine3 from_model =
-      anchor.is_valid() ? Affine3(from_anchor * joints[anchor.index()].inverse()) : from_anchor;
-  std::vector<Vec3> result;
+  const Affine3 placed = from_model(pose);
+  std::vector<Vec3> centers;
   for (const SkinBall& ball : set->balls)
-    result.push_back(from_model * (joints[ball.joint.index()] * ball.center));
-  return result;
+    centers.push_back(placed * (joints[ball.joint.index()] * ball.center));
+  return centers;
 }
 
 const std::vector<Vec3>& Clearance::Side::at(std::size_t frame) {
   if (places.empty()) places.resize(set->poses.size());
-  if (places[frame].empty()) places[frame] = placed(set->poses[frame]);
-  return places[frame];
+  std::vector<Vec3>& here = places[frame];
+  const std::size_t count = set->balls.size();
+  if (here.size() == count) return here;
+  const Affine3 placed = from_model(set->poses[frame]);
+  here.reserve(count);
+  for (std::size_t b = 0; b < count; ++b) {
+    const float* center = set->ball_centers.data() + 3 * (frame * count + b);
+    here.push_back(placed * Vec3(center[0], center[1], center[2]));
+  }
+  return here;
 }
 
 Clearance::Clearance(std::span<const Character* const> characters, const Graft& graft,
@@ -101,7 +127,7 @@ Clearance::Clearance(std::span<const Character* const> characters, const Graft& 
     const auto side = [&](SourceId source, JointId anchor, const Affine3& from_anchor, double scale) {
       const Character* input = characters[graft.sources[source.index()].input];
       Side made{input, motions[source.index()], anchor, from_anchor, scale, {}, {}};
-      made.bind = made.placed(bind_pose(input->skeleton));
+      made.bind = made.bind_places();
       return made;
     };
     const Character& host = *characters[graft.sources[above.source.index()].input];

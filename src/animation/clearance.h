@@ -12,6 +12,9 @@ namespace skinforge {
 /// as these lie round their axis.
 std::vector<SkinBall> skin_balls(const Character& input, std::span<const JointId> kept);
 
+/// Where the balls of a set are in each of its frames: #frames x #balls x 3, in the input's model space.
+std::vector<float> ball_centers(const Skeleton& skeleton, const MotionSet& set);
+
 /// How deep a completed part and the driving part go into each other where one hangs on the other, asked of
 /// balls inside their skins (`MotionSet::balls`): rough, but for thousands of keyframes at once.
 class Clearance {
@@ -38,7 +41,8 @@ class Clearance {
     std::vector<Vec3> bind;
 
     const std::vector<Vec3>& at(std::size_t frame);
-    std::vector<Vec3> placed(const Pose& pose) const;
+    Affine3 from_model(const Pose& pose) const;
+    std::vector<Vec3> bind_places() const;
   };
   struct Pair {
     std::size_t driver, part;  // balls

@@ -77,6 +77,17 @@ struct SkinBall {
   }
 };
 
+/// How far a joint moves, within its parent, away from where it is in the first frame of a motion set.
+struct JointRange {
+  double turn = 1;   ///< least |q . q'| of its rotations
+  double shift = 0;  ///< farthest translation, as a share of the skeleton's extent
+
+  template <class Archive>
+  friend void fields(Archive& a, JointRange& r) {
+    a(r.turn, r.shift);
+  }
+};
+
 /// All clips of one source, resampled and mapped onto the result skeleton: the candidates k'' of Sec. 8.1.
 struct MotionSet {
   std::vector<std::int32_t> clip_begin = {0};  ///< #clips + 1 offsets into the frames
@@ -90,15 +101,17 @@ struct MotionSet {
   std::vector<bool> is_moving;  ///< #clips: the joints that this source brings to the result move
   double fastest_turn = 0;      ///< of any joint of the input between frames, local, rad/s
   std::vector<double>
-      skin_radius;              ///< #input joints, metres in the input: within it lies the joint's skin, or
-                                ///< what may hang on a joint without skin (a twentieth of the diagonal)
-  std::vector<Foot> feet;       ///< of the input
-  std::vector<SkinBall> balls;  ///< in the skin of the joints that this source brings to the result
+      skin_radius;  ///< #input joints, metres in the input: within it lies the joint's skin, or
+                    ///< what may hang on a joint without skin (a twentieth of the diagonal)
+  std::vector<JointRange> ranges;   ///< #input joints
+  std::vector<Foot> feet;           ///< of the input
+  std::vector<SkinBall> balls;      ///< in the skin of the joints that this source brings to the result
+  std::vector<float> ball_centers;  ///< #frames x #balls x 3, in the model space of the input
 
   template <class Archive>
   friend void fields(Archive& a, MotionSet& m) {
     a(m.clip_begin, m.frame_time, m.poses, m.rotations, m.confidence, m.activity, m.is_cyclic, m.is_moving,
-      m.fastest_turn, m.skin_radius, m.feet, m.balls);
+      m.fastest_turn, m.skin_radius, m.ranges, m.feet, m.balls, m.ball_centers);
   }
 };
 

@@ -14,29 +14,39 @@ constexpr int kTries = 6;             // ours: most clips need one or two
 constexpr double kSafer = 0.7;        // ours: below the share of the tolerance that the last try left
 constexpr double kSinOfLine = 1e-9;   // turns so small are interpolated in a line
 
-// Interpolates between two keys, the same way as players do.
+// Interpolates between two keys at `steps` equal steps, the same way as players do.
 class Between {
  public:
-  Between(const Quat& from, const Quat& to) : from_(from.coeffs()), to_(to.coeffs()) {
+  Between(const Quat& from, const Quat& to, std::size_t steps)
+      : from_(from.coeffs()), to_(to.coeffs()), steps_(steps) {
     const double dot = from_.dot(to_);
     if (dot < 0) to_ = -to_;
-    angle_ = std::acos(std::min(1.0, std::abs(dot)));
-    sine_ = std::sin(angle_);
+    const double angle = std::acos(std::min(1.0, std::abs(dot))) / static_cast<double>(steps);
+    // sin((k + 1) a) = 2 cos(a) sin(k a) - sin((k - 1) a)
+    sines_[1] = std::sin(angle);
+    const double twice = 2 * std::cos(angle);
+    for (std::size_t k = 2; k <= steps; ++k) sines_[k] = twice * sines_[k - 1] - sines_[k - 2];
+    if (sines_[steps] >= kSinOfLine) return;
+    for (std::size_t k = 0; k <= steps; ++k) sines_[k] = static_cast<double>(k);
   }
-  Quat at(double share) const {
-    if (sine_ < kSinOfLine) return Quat(Vec4((1 - share) * from_ + share * to_));
-    return Quat(Vec4((std::sin((1 - share) * angle_) * from_ + std::sin(share * angle_) * to_) / sine_));
+  Quat at(std::size_t step) const {
+    return Quat(Vec4((sines_[steps_ - step] * from_ + sines_[step] * to_) / sines_[steps_]));
   }
 
  private:
   Vec4 from_, to_;
-  double angle_ = 0, sine_ = 0;
+  std::size_t steps_;
+  std::array<double, kLongest + 1> sines_ = {};
 };
 
-struct Line {
-  Line(const Vec3& a, const Vec3& b) : from(a), to(b) {}
-  Vec3 at(double share) const { return (1 - share) * from + share * to; }
-  Vec3 from, to;
+class Line {
+ public:
+  Line(const Vec3& from, const Vec3& to, std::size_t steps)
+      : from_(from), step_((to - from) / static_cast<double>(steps)) {}
+  Vec3 at(std::size_t step) const { return from_ + static_cast<double>(step) * step_; }
+
+ private:
+  Vec3 from_, step_;
 };
 
 // Of radians, or of metres.
@@ -49,11 +59,9 @@ bool is_near(const Vec3& a, const Vec3& b, double tolerance) {
 
 template <class Segment, class Value>
 bool passes(const Track<Value>& track, std::size_t from, std::size_t to, double tolerance) {
-  const Segment segment(track.values[from], track.values[to]);
-  const double length = track.times[to] - track.times[from];
+  const Segment segment(track.values[from], track.values[to], to - from);
   for (std::size_t k = from + 1; k < to; ++k)
-    if (!is_near(segment.at((track.times[k] - track.times[from]) / length), track.values[k], tolerance))
-      return false;
+    if (!is_near(segment.at(k - from), track.values[k], tolerance)) return false;
   return true;
 }
 
@@ -76,45 +84,55 @@ Track<Value> thinned(const Track<Value>& track, double tolerance, bool is_loop) 
   return kept;
 }
 
-struct Worlds {
-  std::vector<Affine3> joints;  // #times x #joints
+// What the skin does at all times: where all joints are, and of those that may move otherwise their balls.
+class PosedSkin {
+ public:
+  PosedSkin(const Skeleton& skeleton, std::span<const double> radii, const std::vector<bool>& is_reducible,
+            const std::vector<Pose>& poses);
+
+  // The largest distance between the same points of the skin as it was and in `poses`, which differ in
+  // reducible joints only: the center of a ball and the farthest that its surface may be from there, by the
+  // norm of what moves it.
+  double largest_move(const std::vector<Pose>& poses) const;
+
+ private:
+  const Skeleton& skeleton_;
+  std::vector<bool> moves_;    // reducible joints and all below them
+  std::vector<Mat3> axes_;     // per joint: three points on its ball, in the joint's own frame
+  std::vector<Affine3> were_;  // #times x #joints
 };
 
-// Where all joints are at all times, with the tracks that may lose keys taken from `reduced`.
-Worlds worlds_of(const Skeleton& skeleton, const std::vector<Pose>& poses) {
-  Worlds worlds;
-  worlds.joints.reserve(poses.size() * skeleton.size());
-  for (const Pose& pose : poses)
-    for (std::size_t j = 0; j < skeleton.size(); ++j) {
-      const JointId parent = skeleton.joints[j].parent;
-      const Affine3 local = pose[j].matrix();
-      const std::size_t frame = worlds.joints.size() - j;
-      worlds.joints.push_back(parent.is_valid() ? worlds.joints[frame + parent.index()] * local : local);
-    }
-  return worlds;
+PosedSkin::PosedSkin(const Skeleton& skeleton, std::span<const double> radii,
+                     const std::vector<bool>& is_reducible, const std::vector<Pose>& poses)
+    : skeleton_(skeleton), moves_(is_reducible) {
+  for (std::size_t j = 0; j < skeleton.size(); ++j) {
+    const JointId parent = skeleton.joints[j].parent;
+    if (parent.is_valid() && moves_[parent.index()]) moves_[j] = true;
+    axes_.push_back(skeleton.joints[j].joint_from_model.linear() * radii[j]);
+  }
+  were_.reserve(poses.size() * skeleton.size());
+  for (const Pose& pose : poses) {
+    const std::vector<Affine3> placed = model_from_joint(skeleton, pose);
+    were_.insert(were_.end(), placed.begin(), placed.end());
+  }
 }
 
-// Skin around a joint: three points on its ball, in the joint's own frame.
-struct Ball {
-  Eigen::Matrix3d axes;
-};
-
-std::vector<Ball> balls_of(const Skeleton& skeleton, std::span<const double> radii) {
-  std::vector<Ball> balls;
-  for (std::size_t j = 0; j < skeleton.size(); ++j)
-    balls.push_back({skeleton.joints[j].joint_from_model.linear() * radii[j]});
-  return balls;
-}
-
-// The largest distance between the same points of the skin: the center of a ball and the farthest that its
-// surface may be from there, by the norm of what moves it.
-double largest_move(const Worlds& a, const Worlds& b, const std::vector<Ball>& balls) {
+double PosedSkin::largest_move(const std::vector<Pose>& poses) const {
   double largest = 0;
-  for (std::size_t i = 0; i < a.joints.size(); ++i) {
-    const Ball& ball = balls[i % balls.size()];
-    const double center = (a.joints[i].translation() - b.joints[i].translation()).norm();
-    const double around = ((a.joints[i].linear() - b.joints[i].linear()) * ball.axes).norm();
-    largest = std::max(largest, center + around);
+  const std::size_t n = skeleton_.size();
+  std::vector<Affine3> are(n);
+  for (std::size_t t = 0; t < poses.size(); ++t) {
+    const Affine3* were = were_.data() + t * n;
+    for (std::size_t j = 0; j < n; ++j) {
+      if (!moves_[j]) continue;
+      const JointId parent = skeleton_.joints[j].parent;
+      const bool is_below = parent.is_valid() && moves_[parent.index()];
+      are[j] = poses[t][j].matrix();
+      if (parent.is_valid()) are[j] = (is_below ? are.data() : were)[parent.index()] * are[j];
+      const double center = (are[j].translation() - were[j].translation()).norm();
+      const double around = ((are[j].linear() - were[j].linear()) * axes_[j]).norm();
+      largest = std::max(largest, center + around);
+    }
   }
   return largest;
 }
@@ -157,8 +175,7 @@ void reduce_keys(Clip& clip, const Skeleton& skeleton, const std::vector<bool>& 
   if (tolerance <= 0 || times.size() < 3) return;
   std::vector<Pose> poses(times.size(), bind_pose(skeleton));
   for (const JointTracks& tracks : clip.joints) sample_into(tracks, times, poses);
-  const Worlds wanted = worlds_of(skeleton, poses);
-  const std::vector<Ball> balls = balls_of(skeleton, radii);
+  const PosedSkin skin(skeleton, radii, is_reducible, poses);
   const std::vector<double> reaches = reaches_of(skeleton, radii);
   double share = 1;
   for (int attempt = 0; attempt < kTries; ++attempt) {
@@ -173,7 +190,7 @@ void reduce_keys(Clip& clip, const Skeleton& skeleton, const std::vector<bool>& 
            thinned<Line>(tracks.scale, moves / reach, is_loop)});
       sample_into(reduced.back(), times, poses);
     }
-    const double moved = largest_move(wanted, worlds_of(skeleton, poses), balls);
+    const double moved = skin.largest_move(poses);
     if (moved <= tolerance) {
       for (JointTracks& tracks : reduced)
         *std::find_if(clip.joints.begin(), clip.joints.end(),

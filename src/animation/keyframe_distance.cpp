@@ -12,7 +12,6 @@ namespace skinforge {
 namespace {
 
 constexpr std::size_t kBlock = Lanes::kCount;  // candidates handled together
-constexpr std::size_t kQueries = 4;            // frames compared with a block while it is at hand
 constexpr std::size_t kRowsAtOnce = 32;        // ours: of a table, by one thread
 constexpr double kMinWeight =
     0.01;  // ours: of the largest; joints below change the distance in the third digit
@@ -150,11 +149,11 @@ namespace {
   return abs(block[0] * q[0] + block[1] * q[1] + block[2] * q[2] + block[3] * q[3]);
 }
 
-// sums[query][block] += |q . q'| over the joints of a block, for kQueries queries at once. Written out,
-// because the compiler would keep a loop's sums in memory.
+// sums[query][block] += |q . q'| over the joints of a block, for RotationTable::kAtOnce queries at once.
+// Written out, because the compiler would keep a loop's sums in memory.
 SKINFORGE_VECTOR_CLONES void add_block(const float* values, const float* queries, std::size_t joints,
                                        float* const* sums) {
-  static_assert(kQueries == 4);
+  static_assert(RotationTable::kAtOnce == 4);
   Lanes a = Lanes::load(sums[0]), b = Lanes::load(sums[1]), c = Lanes::load(sums[2]),
         d = Lanes::load(sums[3]);
   for (std::size_t j = 0; j < joints; ++j, values += 4 * kBlock, queries += 4) {
@@ -177,10 +176,10 @@ void RotationTable::add_similarities(std::span<const float> queries, std::span<f
   const std::size_t stride = weights_.size() * 4, padded = padded_count();
   const std::size_t count = padded == 0 ? 0 : sums.size() / padded;
   SF_EXPECT(sums.size() == count * padded && (stride == 0 || queries.size() == count * stride));
-  std::vector<float> weighted(kQueries * stride), spare(padded);
-  for (std::size_t first = 0; first < count; first += kQueries) {
-    std::array<float*, kQueries> rows;
-    for (std::size_t k = 0; k < kQueries; ++k) {
+  std::vector<float> weighted(RotationTable::kAtOnce * stride), spare(padded);
+  for (std::size_t first = 0; first < count; first += RotationTable::kAtOnce) {
+    std::array<float*, RotationTable::kAtOnce> rows;
+    for (std::size_t k = 0; k < RotationTable::kAtOnce; ++k) {
       const bool is_there = first + k < count;
       rows[k] = is_there ? sums.data() + (first + k) * padded : spare.data();
       for (std::size_t v = 0; v < stride; ++v)

@@ -34,12 +34,14 @@ FrameSteps frame_steps(const MotionSet& set);
 /// Rotations of many frames at some joints, packed so that frames are compared with all of them at once.
 class RotationTable {
  public:
+  static constexpr std::size_t kAtOnce = 4;  ///< queries that cost as much as one
+
   /// `frames` x `weights.size()` x 4 numbers (x y z w) of unit quaternions. Weights need not sum to 1.
   RotationTable(std::span<const float> rotations, std::span<const float> weights);
 
   std::size_t frame_count() const { return frames_; }
   /// Adds to `sums` (#queries x `padded_count`, one per frame) the weighted |q . q'| with each of `queries`
-  /// (#queries x #joints x 4). Several at once are faster.
+  /// (#queries x #joints x 4).
   void add_similarities(std::span<const float> queries, std::span<float> sums) const;
   std::size_t padded_count() const;
 

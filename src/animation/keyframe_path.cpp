@@ -39,6 +39,17 @@ struct Ways {
   std::int32_t origin(std::size_t c) const { return origins[static_cast<std::size_t>(way[c] - kJump)]; }
 };
 
+std::size_t padded(std::size_t count) {
+  return (count + kBlock - 1) / kBlock * kBlock;
+}
+
+// What jumps have to beat: per candidate its cost, below all costs where none may enter; and the largest of
+// each block, or more, since costs fall while jumps are tried.
+struct ToBeat {
+  Row cost, dearest;
+  std::vector<std::uint32_t> blocks;  // room for those in which a jump may gain
+};
+
 class Search {
  public:
   Search(const DistanceTable& distances, const FrameSteps& steps, const std::vector<bool>& allowed,
@@ -51,13 +62,14 @@ class Search {
  private:
   void find_entries(const FrameSteps& steps, bool may_stay);
   Front first_front(std::size_t frame, std::int32_t fixed) const;
-  Ways go_on(const Front& before, std::size_t frame, Front& front) const;
+  Ways go_on(const Front& before, std::size_t frame, ToBeat& to_beat, Front& front) const;
   void step_on(const Front& before, Front& front, Ways& ways) const;
   void step_over_gaps(const Front& before, Front& front, Ways& ways) const;
   void step_within_limits(const Front& before, Front& front, Ways& ways) const;
   bool has_limits() const { return costs_.hold_wait != 1 || costs_.skip_wait != 0; }
-  void jump_on(const Front& before, Front& front, Ways& ways) const;
-  void land(std::size_t origin, float base, std::span<float> to_beat, Front& front, Ways& ways) const;
+  void jump_on(const Front& before, ToBeat& to_beat, Front& front, Ways& ways) const;
+  const Row& nearest_landings(std::size_t origin) const;
+  void land(std::size_t origin, float base, ToBeat& to_beat, Front& front, Ways& ways) const;
   void pay(std::size_t frame, const Ways& ways, Front& front) const;
   std::size_t before(std::size_t candidate, const Ways& ways) const;
 
@@ -66,12 +78,13 @@ class Search {
   PathCosts costs_;
   std::size_t n_;
   std::vector<std::uint8_t> allowed_;
-  std::vector<std::uint8_t> may_enter_;       // by a jump, or as the first keyframe
-  std::vector<std::uint8_t> may_stay_;        // ends of clips, where a Hold may follow a Hold
-  std::vector<std::size_t> before_, second_;  // one and two natural steps back, or n_
-  std::vector<std::size_t> gaps_;             // where those are not simply c - 1 and c - 2
-  std::size_t padded_;                        // n_, rounded up to whole blocks
-  std::vector<float> entry_;                  // kNever where a jump may enter, else -kNever
+  std::vector<std::uint8_t> may_enter_;        // by a jump, or as the first keyframe
+  std::vector<std::uint8_t> may_stay_;         // ends of clips, where a Hold may follow a Hold
+  std::vector<std::size_t> before_, second_;   // one and two natural steps back, or n_
+  std::vector<std::size_t> gaps_;              // where those are not simply c - 1 and c - 2
+  std::size_t padded_;                         // n_, rounded up to whole blocks
+  mutable std::vector<Row> nearest_landings_;  // per candidate, once asked for: the least of each block
+  std::vector<float> entry_;                   // kNever where a jump may enter, else -kNever
 };
 
 Search::Search(const DistanceTable& distances, const FrameSteps& steps, const std::vector<bool>& allowed,
@@ -83,7 +96,8 @@ Search::Search(const DistanceTable& distances, const FrameSteps& steps, const st
       allowed_(allowed.begin(), allowed.end()),
       may_enter_(allowed_),
       may_stay_(n_, 0),
-      padded_((n_ + kBlock - 1) / kBlock * kBlock) {
+      padded_(padded(n_)),
+      nearest_landings_(n_) {
   for (const std::int32_t previous : steps.previous)
     before_.push_back(previous < 0 ? n_ : static_cast<std::size_t>(previous));
   for (const std::size_t previous : before_) second_.push_back(previous == n_ ? n_ : before_[previous]);
@@ -213,61 +227,93 @@ std::vector<Origin> cheapest(std::span<const float> costs, float limit) {
   return best;
 }
 
-// What jumps to each candidate have to beat: its cost, or less than any cost where none may enter. Returns
-// the largest.
-SKINFORGE_VECTOR_CLONES float costs_to_beat(const float* cost, const float* ceiling, std::size_t count,
-                                            float* to_beat) {
-  Lanes most = Lanes::all(-kNever);
+// What jumps to each candidate have to beat: its cost, or less than any cost where none may enter; and the
+// largest of each block.
+SKINFORGE_VECTOR_CLONES void find_costs_to_beat(const float* cost, const float* ceiling, std::size_t count,
+                                                float* to_beat, float* dearest) {
   for (std::size_t c = 0; c < count; c += kBlock) {
     const Lanes beat = min(Lanes::load(cost + c), Lanes::load(ceiling + c));
     beat.store(to_beat + c);
-    most = max(most, beat);
+    float most = beat.v[0];
+    for (std::size_t k = 1; k < kBlock; ++k) most = beat.v[k] > most ? beat.v[k] : most;
+    dearest[c / kBlock] = most;
   }
-  float largest = -kNever;
-  for (std::size_t k = 0; k < kBlock; ++k) largest = std::max(largest, most.v[k]);
-  return largest;
 }
 
-// Blocks in which some landing is cheaper than what there is; most have none.
-SKINFORGE_VECTOR_CLONES std::size_t blocks_that_gain(const float* to_beat, const float* landing, float base,
-                                                     std::size_t count, std::uint32_t* found) {
+// Which of many blocks may hold a landing that is cheaper than what there is; most do not.
+SKINFORGE_VECTOR_CLONES std::size_t blocks_that_may_gain(const float* dearest, const float* nearest,
+                                                         float base, std::size_t count,
+                                                         std::uint32_t* found) {
   std::size_t size = 0;
-  for (std::size_t c = 0; c < count; c += kBlock) {
-    const auto gains = (Lanes::load(landing + c) + base).v < Lanes::load(to_beat + c).v;
+  for (std::size_t b = 0; b < count; b += kBlock) {
+    const auto gains = (Lanes::load(nearest + b) + base).v < Lanes::load(dearest + b).v;
     int any = 0;
     for (std::size_t k = 0; k < kBlock; ++k) any |= gains[k];
-    found[size] = static_cast<std::uint32_t>(c);
-    size += any != 0;
+    for (std::size_t k = 0; any && k < kBlock; ++k) {
+      found[size] = static_cast<std::uint32_t>(b + k);
+      size += gains[k] != 0;
+    }
   }
   return size;
 }
 
-// `to_beat`: the cost of each candidate that may be entered, below all costs for the others.
-void Search::land(std::size_t origin, float base, std::span<float> to_beat, Front& front, Ways& ways) const {
-  const auto landing = landing_(static_cast<std::int32_t>(origin));
-  const auto way = static_cast<std::uint8_t>(kJump + ways.origins.size());
-  ways.origins.push_back(static_cast<std::int32_t>(origin));
-  const auto land_on = [&](std::size_t t) {
-    const float total = base + landing[t];
-    if (total >= to_beat[t]) return;
-    to_beat[t] = front.cost[kMargin + t] = total;
-    ways.way[t] = way;
-    if (has_limits()) front.since_hold[t] = front.since_skip[t] = PathCosts::kNever - 1;
-  };
-  const std::size_t whole = n_ / kBlock * kBlock;
-  std::vector<std::uint32_t> blocks(whole / kBlock + 1);
-  blocks.resize(blocks_that_gain(to_beat.data(), landing.data(), base, whole, blocks.data()));
-  for (const std::uint32_t block : blocks)
-    for (std::size_t t = block; t < block + kBlock; ++t) land_on(t);
-  for (std::size_t t = whole; t < n_; ++t) land_on(t);
+// Takes the landings of one block that are cheaper than what there is.
+[[gnu::always_inline]] inline void land_on_block(const float* landing, float base, std::uint8_t way,
+                                                 float* to_beat, float* cost, std::uint8_t* ways) {
+  const Lanes total = Lanes::load(landing) + base, beat = Lanes::load(to_beat);
+  const auto gains = total.v < beat.v;
+  Lanes{gains ? total.v : beat.v}.store(to_beat);
+  Lanes{gains ? total.v : Lanes::load(cost).v}.store(cost);
+  for (std::size_t k = 0; k < kBlock; ++k) ways[k] = gains[k] ? way : ways[k];
 }
 
-void Search::jump_on(const Front& before, Front& front, Ways& ways) const {
-  std::vector<float> to_beat(padded_);
-  const float dearest = costs_to_beat(front.cost.data() + kMargin, entry_.data(), padded_, to_beat.data());
+SKINFORGE_VECTOR_CLONES void land_on_blocks(const std::uint32_t* blocks, std::size_t count,
+                                            const float* landing, float base, std::uint8_t way,
+                                            float* to_beat, float* cost, std::uint8_t* ways) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t c = blocks[i] * kBlock;
+    land_on_block(landing + c, base, way, to_beat + c, cost + c, ways + c);
+  }
+}
+
+const Row& Search::nearest_landings(std::size_t origin) const {
+  Row& nearest = nearest_landings_[origin];
+  if (!nearest.empty()) return nearest;
+  nearest.assign(padded(padded_ / kBlock), kNever);
+  const auto landing = landing_(static_cast<std::int32_t>(origin));
+  for (std::size_t t = 0; t < n_; ++t) nearest[t / kBlock] = std::min(nearest[t / kBlock], landing[t]);
+  return nearest;
+}
+
+void Search::land(std::size_t origin, float base, ToBeat& to_beat, Front& front, Ways& ways) const {
+  std::vector<std::uint32_t>& blocks = to_beat.blocks;
+  blocks.resize(to_beat.dearest.size());
+  blocks.resize(blocks_that_may_gain(to_beat.dearest.data(), nearest_landings(origin).data(), base,
+                                     to_beat.dearest.size(), blocks.data()));
+  const auto way = static_cast<std::uint8_t>(kJump + ways.origins.size());
+  ways.origins.push_back(static_cast<std::int32_t>(origin));
+  if (blocks.empty()) return;
+  const auto landing = landing_(static_cast<std::int32_t>(origin));
+  const bool ends_short = blocks.back() == n_ / kBlock;
+  land_on_blocks(blocks.data(), blocks.size() - ends_short, landing.data(), base, way, to_beat.cost.data(),
+                 front.cost.data() + kMargin, ways.way.data());
+  for (std::size_t t = n_ / kBlock * kBlock; ends_short && t < n_; ++t)
+    if (base + landing[t] < to_beat.cost[t]) {
+      to_beat.cost[t] = front.cost[kMargin + t] = base + landing[t];
+      ways.way[t] = way;
+    }
+}
+
+// `to_beat`: room that is used again.
+void Search::jump_on(const Front& before, ToBeat& to_beat, Front& front, Ways& ways) const {
+  find_costs_to_beat(front.cost.data() + kMargin, entry_.data(), padded_, to_beat.cost.data(),
+                     to_beat.dearest.data());
+  const float dearest = *std::max_element(to_beat.dearest.begin(), to_beat.dearest.end());
   const auto costs = std::span(before.cost).subspan(kMargin, padded_);
   for (const Origin& origin : cheapest(costs, dearest - costs_.jump))
     land(origin.candidate, origin.cost + costs_.jump, to_beat, front, ways);
+  for (std::size_t t = 0; has_limits() && t < n_; ++t)
+    if (ways.way[t] >= kJump) front.since_hold[t] = front.since_skip[t] = PathCosts::kNever - 1;
 }
 
 SKINFORGE_VECTOR_CLONES void add_row(const float* row, float tempo, const std::uint8_t* way,
@@ -284,10 +330,10 @@ void Search::pay(std::size_t frame, const Ways& ways, Front& front) const {
           front.cost.data() + kMargin, front.hold_cost.data() + kMargin);
 }
 
-Ways Search::go_on(const Front& before, std::size_t frame, Front& front) const {
+Ways Search::go_on(const Front& before, std::size_t frame, ToBeat& to_beat, Front& front) const {
   Ways ways{std::vector<std::uint8_t>(padded_), {}};
   step_on(before, front, ways);
-  jump_on(before, front, ways);
+  jump_on(before, to_beat, front, ways);
   pay(frame, ways, front);
   return ways;
 }
@@ -308,9 +354,10 @@ std::size_t Search::before(std::size_t candidate, const Ways& ways) const {
 
 KeyframePath Search::run(std::span<const std::size_t> frames, std::int32_t fixed) const {
   Front last = first_front(frames.front(), fixed), next = last;
+  ToBeat to_beat{Row(padded_), Row(padded(padded_ / kBlock), -kNever), {}};
   std::vector<Ways> all = {Ways{std::vector<std::uint8_t>(padded_), {}}};
   for (std::size_t k = 1; k < frames.size(); ++k) {
-    all.push_back(go_on(last, frames[k], next));
+    all.push_back(go_on(last, frames[k], to_beat, next));
     std::swap(last, next);
   }
   const auto costs = std::span(last.cost).subspan(kMargin, n_);

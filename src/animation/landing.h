@@ -7,6 +7,9 @@
 
 namespace skinforge {
 
+/// One per joint of the set's input.
+std::vector<JointRange> joint_ranges(std::span<const Pose> poses, const Skeleton& skeleton);
+
 /// What jumps between keyframes cost a completed part. Two poses differ by the mean of 1 - |q . q'| over the
 /// local rotations of its 16 most-turning joints, plus the largest difference of their translations as a
 /// share of the skeleton's extent. A jump from s to t costs twice the mean of (next of s, t) and (s, previous
@@ -24,6 +27,8 @@ class LandingTable {
 
  private:
   const Eigen::ArrayXf& pose_distances(std::size_t frame);
+  void compare_poses(std::size_t first, std::size_t count);
+  void add_shift(std::size_t frame);
   void make_room();
 
   const FrameSteps& steps_;
@@ -31,10 +36,11 @@ class LandingTable {
   std::vector<float> rotations_;  // #frames x #turning joints x 4
   std::size_t turning_ = 0;
   RotationTable table_;
-  std::vector<Eigen::ArrayX3f> shifts_;  // per wandering joint, #frames: place in shares of the extent
-  std::vector<Eigen::ArrayXf> distances_;
-  std::vector<std::vector<float>> rows_;
-  std::size_t kept_ = 0;  // rows
+  std::vector<std::size_t> first_frames_;  // frames whose predecessor is not the one before them in the set
+  std::vector<Eigen::ArrayX3f> shifts_;    // per wandering joint, #frames: place in shares of the extent
+  std::vector<Eigen::ArrayXf> distances_;  // per frame, to all others, once worked out
+  std::vector<Eigen::ArrayXf> rows_;       // per frame, once asked for
+  std::size_t kept_ = 0;                   // of both
 };
 
 }  // namespace skinforge

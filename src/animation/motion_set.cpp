@@ -5,6 +5,7 @@
 #include "animation/clearance.h"
 #include "animation/completion.h"
 #include "animation/feet.h"
+#include "animation/landing.h"
 #include "animation/resampling.h"
 #include "animation/sampling.h"
 #include "animation/shift_scale.h"
@@ -259,7 +260,9 @@ MotionSet build_motion_set(const Character& input, const Graft& graft, SourceId 
   if (set.poses.empty()) return set;
 
   set.feet = find_feet(input, set);
+  set.ranges = joint_ranges(set.poses, input.skeleton);
   set.balls = skin_balls(input, kept_joints(placed));
+  set.ball_centers = ball_centers(input.skeleton, set);
   measure_activity(kSearchRate, set);
   const std::vector<Quat> bind = global_rotations(input.skeleton, bind_pose(input.skeleton));
   std::vector<std::vector<Quat>> rotations;

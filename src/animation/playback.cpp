@@ -164,19 +164,27 @@ void limit_turns(std::vector<Quat>& rotations, double limit, bool is_loop) {
   const std::size_t n = rotations.size();
   if (n < 2) return;
   const double limit_dot = std::cos(std::min(limit, kFullTurn) / 2) + kDotRounding;
+  const std::size_t pairs = is_loop ? n : n - 1;  // of a key and the next
+  std::vector<std::uint8_t> is_open(n, 1);        // pairs of which a key was moved since they were looked at
   const auto pull_all = [&] {
     bool moved = false;
-    for (std::size_t k = 0; k + 1 < n; ++k)
-      moved |= pull_together(rotations[k], rotations[k + 1], limit, limit_dot);
-    if (is_loop) moved |= pull_together(rotations[n - 1], rotations[0], limit, limit_dot);
+    for (std::size_t k = 0; k < pairs; ++k) {
+      if (!is_open[k]) continue;
+      is_open[k] = 0;
+      if (!pull_together(rotations[k], rotations[(k + 1) % n], limit, limit_dot)) continue;
+      is_open[(k + n - 1) % n] = is_open[k] = is_open[(k + 1) % n] = 1;
+      moved = true;
+    }
     return moved;
   };
   for (int pass = 0; pass < kLimitPasses; ++pass)
     if (!pull_all()) return;
   // It will not settle (a limit near zero): bring all keys nearer to the first, which ends with them equal.
   const Quat first = rotations[0];
-  for (int pass = 0; pass < kLimitPasses && pull_all(); ++pass)
+  for (int pass = 0; pass < kLimitPasses && pull_all(); ++pass) {
     for (Quat& q : rotations) q = q.slerp(kShrink, first).normalized();
+    std::fill(is_open.begin(), is_open.end(), 1);
+  }
   if (pull_all()) std::fill(rotations.begin(), rotations.end(), first);
 }
 

@@ -21,6 +21,14 @@ std::vector<Affine3> model_from_joint(const Skeleton& skeleton, std::span<const 
   return all;
 }
 
+Affine3 model_from_joint(const Skeleton& skeleton, std::span<const Transform> pose, JointId joint) {
+  SF_EXPECT(pose.size() == skeleton.size());
+  Affine3 placed = pose[joint.index()].matrix();
+  for (JointId j = skeleton[joint].parent; j.is_valid(); j = skeleton[j].parent)
+    placed = pose[j.index()].matrix() * placed;
+  return placed;
+}
+
 std::vector<Quat> global_rotations(const Skeleton& skeleton, std::span<const Transform> pose) {
   SF_EXPECT(pose.size() == skeleton.size());
   std::vector<Quat> all(skeleton.size());

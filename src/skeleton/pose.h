@@ -16,6 +16,9 @@ Pose bind_pose(const Skeleton& skeleton);
 /// model_from_joint of every joint in `pose` (forward kinematics). Linear.
 std::vector<Affine3> model_from_joint(const Skeleton& skeleton, std::span<const Transform> pose);
 
+/// model_from_joint of one joint: the product of the local transforms down to it.
+Affine3 model_from_joint(const Skeleton& skeleton, std::span<const Transform> pose, JointId joint);
+
 /// model_from_joint rotations only: the product of the local rotations down from the root. Linear.
 std::vector<Quat> global_rotations(const Skeleton& skeleton, std::span<const Transform> pose);
 
