@@ -70,9 +70,11 @@ CompletedPart complete_part(std::span<const Character* const> characters, const 
 
   const bool is_paper = options.choice == KeyframeChoice::Frame;
   const auto half_fade = static_cast<std::size_t>(std::lround(kHalfFade * kSearchRate));
-  PartMotion motion{
-      &set,    play(chosen.path, set, frames.is_loop, half_fade), frames.is_loop, 0, frames.grid, keys,
-      is_paper};
+  ClipPlayer player(*characters[part.input], set);
+  PartMotion motion{&player,          play(chosen.path, set, frames.is_loop, half_fade),
+                    frames.is_loop,   0,
+                    frames.grid,      keys,
+                    set.fastest_turn, is_paper};
   if (part.steps_behind != 0)
     motion.delay = part.steps_behind * step_frames(driving_set, driver.clip, frames.is_loop);
   for (const SourceId source : part.sources) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "animation/completed_part.h"
+#include "animation/key_rate.h"
 #include "animation/key_reduction.h"
 #include "animation/keyframe_choice.h"
 #include "animation/resampling.h"
@@ -86,7 +87,8 @@ void complete_other_parts(std::span<const Character* const> characters, const Gr
                           std::span<const MotionSet* const> motions, const Casting& casting,
                           const CompletionOptions& options, CompletedClip& result) {
   const Clip& source_clip = characters[casting.driver.input]->clips[casting.driver.clip];
-  const ClipFrames keys(source_clip.duration, options.key_rate_hz.value_or(kSearchRate));
+  const double own_rate = own_key_rate(source_clip).value_or(kSearchRate);
+  const ClipFrames keys(source_clip.duration, options.key_rate_hz.value_or(own_rate));
   std::vector<bool> is_completed(graft.skeleton.size(), false);
   for (const PartToComplete& part : casting.parts) {
     CompletedPart completed = complete_part(characters, graft, motions, casting.driver, part, keys, options);

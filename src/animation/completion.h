@@ -37,7 +37,7 @@ struct ClipChoice {
 struct CompletionOptions {
   bool complete = true;  ///< false: the other parts stay in their bind pose
   KeyframeChoice choice = KeyframeChoice::Sequence;
-  std::optional<double> key_rate_hz;       ///< of completed tracks; by default `kSearchRate`
+  std::optional<double> key_rate_hz;  ///< of completed tracks; by default the clip's own, or `kSearchRate`
   std::array<double, 2> tempo = {0.5, 2};  ///< of the part's clips, slowest in [0.5, 1] and fastest in [1, 2]
   std::optional<bool> loop;                ///< whether the clip is a loop; by default as its poses say
   /// Share of a step by which limbs that the body has twice follow each other, 0 = alike; by default 1 / (how
@@ -99,7 +99,7 @@ struct MotionSet {
       activity;  ///< #frames, mean joint speed over half a second; 1 = the liveliest clip's mean
   std::vector<bool> is_cyclic;  ///< #clips: the last pose nearly meets the first; `poses` then close exactly
   std::vector<bool> is_moving;  ///< #clips: the joints that this source brings to the result move
-  double fastest_turn = 0;      ///< of any joint of the input between frames, local, rad/s
+  double fastest_turn = 0;      ///< of any joint of the input between frames or keys, local, rad/s
   std::vector<double>
       skin_radius;  ///< #input joints, metres in the input: within it lies the joint's skin, or
                     ///< what may hang on a joint without skin (a twentieth of the diagonal)

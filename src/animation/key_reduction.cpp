@@ -161,9 +161,7 @@ double scale_of_parent(const Skeleton& skeleton, JointId joint) {
 void sample_into(const JointTracks& tracks, std::span<const double> times, std::vector<Pose>& poses) {
   for (std::size_t t = 0; t < times.size(); ++t) {
     Transform& local = poses[t][tracks.joint.index()];
-    if (!tracks.translation.is_empty()) local.translation = sample(tracks.translation, times[t]);
-    if (!tracks.rotation.is_empty()) local.rotation = sample(tracks.rotation, times[t]);
-    if (!tracks.scale.is_empty()) local.scale = sample(tracks.scale, times[t]);
+    local = sample(tracks, times[t], local);
   }
 }
 

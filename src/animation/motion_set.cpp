@@ -5,7 +5,9 @@
 #include "animation/clearance.h"
 #include "animation/completion.h"
 #include "animation/feet.h"
+#include "animation/key_rate.h"
 #include "animation/landing.h"
+#include "animation/loop_closing.h"
 #include "animation/resampling.h"
 #include "animation/sampling.h"
 #include "animation/shift_scale.h"
@@ -67,21 +69,12 @@ bool is_loop(std::span<const Pose> poses, const Watched& watched) {
   return gap.angle <= kLoopGap * whole.angle && gap.shift <= kLoopGap * whole.shift;
 }
 
-Transform moved_by(const Transform& t, const Transform& from, const Transform& to, double share) {
-  const Quat turn = Quat::Identity().slerp(share, to.rotation * from.rotation.conjugate());
-  return {t.translation + share * (to.translation - from.translation), (turn * t.rotation).normalized(),
-          t.scale + share * (to.scale - from.scale)};
-}
-
-// Lets the last pose meet the first half way; the correction fades out towards the middle of the clip.
 void close_loop(std::span<Pose> poses) {
   const Pose first = poses.front(), last = poses.back();
-  const double middle = static_cast<double>(poses.size() - 1) / 2;
   for (std::size_t f = 0; f < poses.size(); ++f) {
-    const double share =
-        0.5 * (1 - static_cast<double>(f) / middle);  // 1/2 at the first frame, -1/2 at the last
+    const double place = static_cast<double>(f) / static_cast<double>(poses.size() - 1);
     for (std::size_t j = 0; j < first.size(); ++j)
-      poses[f][j] = moved_by(poses[f][j], first[j], last[j], share);
+      poses[f][j] = closed(poses[f][j], first[j], last[j], place);
   }
   poses.back() = poses.front();
 }
@@ -110,7 +103,8 @@ void resample_clips(const Character& input, double rate_hz, std::vector<JointId>
     const Range moved = range_of(poses, part);
     set.is_cyclic.push_back(is_loop(poses, all));
     set.is_moving.push_back(moved.angle > kStillAngle || moved.shift > kStillShift);
-    set.fastest_turn = std::max(set.fastest_turn, fastest_turn_of(poses, frames.step()));
+    set.fastest_turn =
+        std::max({set.fastest_turn, fastest_turn_of(poses, frames.step()), fastest_keyed_turn(clip)});
     if (set.is_cyclic.back()) close_loop(std::span<Pose>(set.poses).subspan(first));
   }
 }

@@ -20,12 +20,12 @@ Transform played(const PartMotion& motion, double frame, JointId joint) {
   frame = motion.is_loop ? frame - n * std::floor(frame / n) : std::clamp(frame, 0.0, n - 1);
   const double nearest = std::round(frame);
   if (std::abs(frame - nearest) < kOnFrame)
-    return joint_at(*motion.set, motion.playback[static_cast<std::size_t>(nearest) % motion.playback.size()],
-                    joint);
+    return motion.player->at(motion.playback[static_cast<std::size_t>(nearest) % motion.playback.size()],
+                             joint);
   const auto before = static_cast<std::size_t>(frame);
-  return blend(joint_at(*motion.set, motion.playback[before], joint),
-               joint_at(*motion.set, motion.playback[(before + 1) % motion.playback.size()], joint),
-               frame - static_cast<double>(before));
+  return motion.player->between(motion.playback[before],
+                                motion.playback[(before + 1) % motion.playback.size()],
+                                frame - static_cast<double>(before), joint);
 }
 
 bool same(const Vec3& a, const Vec3& b) {
@@ -109,7 +109,7 @@ JointTracks make_tracks(JointId joint, const Joint& result, std::span<const Tran
   if (motion.is_smoothed)
     smooth_rotations(rotations, motion.is_loop);
   else
-    limit_turns(rotations, motion.set->fastest_turn * motion.keys.step(), motion.is_loop);
+    limit_turns(rotations, motion.fastest_turn * motion.keys.step(), motion.is_loop);
   if (motion.is_loop) soften_seam(rotations);
   if (motion.is_loop) {
     translations.push_back(translations.front());

@@ -3,20 +3,21 @@
 #include <span>
 #include <vector>
 
+#include "animation/clip_player.h"
 #include "animation/completion.h"
-#include "animation/playback.h"
 #include "animation/resampling.h"
 
 namespace skinforge {
 
 /// What a completed part plays, and when: everything that its tracks are made from.
 struct PartMotion {
-  const MotionSet* set = nullptr;
+  ClipPlayer* player = nullptr;
   std::vector<PlaybackFrame> playback;  ///< one per search frame; in a loop without the repeated last
   bool is_loop = false;
   double delay = 0;          ///< search frames that the part is behind (limbs.h)
   ClipFrames search;         ///< grid of `playback`
   ClipFrames keys;           ///< grid of the tracks
+  double fastest_turn = 0;   ///< that a rotation may have, rad/s
   bool is_smoothed = false;  ///< by (1 2 1) / 4, the paper's light smoothing, in place of the speed bound
 };
 

@@ -140,26 +140,6 @@ std::vector<PlaybackFrame> play(const KeyframePath& path, const MotionSet& set, 
   return frames;
 }
 
-Transform joint_at(const MotionSet& set, const ClipPosition& position, JointId joint) {
-  const auto begin = static_cast<std::size_t>(set.clip_begin[position.clip]);
-  const auto last = static_cast<std::size_t>(set.clip_begin[position.clip + 1]) - begin - 1;
-  double frame = position.frame;
-  const double length = static_cast<double>(last);
-  if (set.is_cyclic[position.clip])
-    frame -= length * std::floor(frame / length);
-  else
-    frame = std::clamp(frame, 0.0, length);
-  const auto whole = std::min(static_cast<std::size_t>(frame), last > 0 ? last - 1 : 0);
-  const Transform& here = set.poses[begin + whole][joint.index()];
-  if (last == 0) return here;
-  return blend(here, set.poses[begin + whole + 1][joint.index()], frame - static_cast<double>(whole));
-}
-
-Transform joint_at(const MotionSet& set, const PlaybackFrame& frame, JointId joint) {
-  const Transform from = joint_at(set, frame.from, joint);
-  return frame.blend == 0 ? from : blend(from, joint_at(set, frame.to, joint), frame.blend);
-}
-
 void limit_turns(std::vector<Quat>& rotations, double limit, bool is_loop) {
   const std::size_t n = rotations.size();
   if (n < 2) return;

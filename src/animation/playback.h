@@ -31,10 +31,6 @@ std::vector<PlaybackFrame> play(const KeyframePath& path, const MotionSet& set, 
 /// Between two transforms, 0 = a, 1 = b: translation and scale in a line, rotation by the shortest turn.
 Transform blend(const Transform& a, const Transform& b, double share);
 
-/// Local transform of input joint `joint`.
-Transform joint_at(const MotionSet& set, const ClipPosition& position, JointId joint);
-Transform joint_at(const MotionSet& set, const PlaybackFrame& frame, JointId joint);
-
 /// Turns the rotations of one joint until no two neighbours (in a loop also the last and the first) are more
 /// than `limit` radians apart, by moving offending neighbours towards each other, over and over. Limit 0
 /// leaves them all as the first.

@@ -87,13 +87,19 @@ Quat sample(const QuatTrack& track, double time) {
   return norm > 0 ? Quat(Vec4(sum / norm)) : key_value(track, k);
 }
 
+Transform sample(const JointTracks& tracks, double time, const Transform& bind) {
+  Transform local = bind;
+  if (!tracks.translation.is_empty()) local.translation = sample(tracks.translation, time);
+  if (!tracks.rotation.is_empty()) local.rotation = sample(tracks.rotation, time);
+  if (!tracks.scale.is_empty()) local.scale = sample(tracks.scale, time);
+  return local;
+}
+
 Pose sample(const Skeleton& skeleton, const Clip& clip, double time) {
   Pose pose = bind_pose(skeleton);
   for (const JointTracks& tracks : clip.joints) {
     Transform& joint = pose[tracks.joint.index()];
-    if (!tracks.translation.is_empty()) joint.translation = sample(tracks.translation, time);
-    if (!tracks.rotation.is_empty()) joint.rotation = sample(tracks.rotation, time);
-    if (!tracks.scale.is_empty()) joint.scale = sample(tracks.scale, time);
+    joint = sample(tracks, time, joint);
   }
   return pose;
 }

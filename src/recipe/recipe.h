@@ -223,7 +223,7 @@ struct AnimationOptions {
   std::vector<std::string> clips;  ///< names to keep, when not all
   bool complete = true;            ///< give the other parts motion in each clip (SkinMixer Sec. 8)
   CompletionMethod method = CompletionMethod::Sequence;
-  std::optional<double> rate_hz;  ///< keys a second of completed tracks; [1, 240]; by default 30
+  std::optional<double> rate_hz;  ///< keys a second of completed tracks; [1, 240]; by default the clip's own
   std::array<double, 2> tempo = {0.5,
                                  2};  ///< of completed parts over that of their own clips; [0.5, 1], [1, 2]
   /// Share of a step by which limbs that the body has twice follow those it had before; [0, 1]; 0 moves both

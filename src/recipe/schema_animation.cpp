@@ -16,8 +16,10 @@ Json method() {
 }
 
 Json rate() {
-  return optional("Keys of completed tracks; without it 30 a second, as clips are compared.",
-                  number(1, 240, "1/second"), {60});
+  return optional(
+      "Keys of completed tracks; without it as many as the clip has, or 30 where its keys are unevenly "
+      "spaced.",
+      number(1, 240, "1/second"), {60});
 }
 
 Json tempo() {
