@@ -72,6 +72,7 @@ class Parser {
     line_.report = report_level(report_);
     if (!recipe_.empty()) line_.recipes = {recipe_};
     if (line_.verb == Verb::Help) line_.help = help_about(topic_);
+    for (const std::string& text : raised_) set_limit(line_.limits, text);
     line_.verbosity = quiet_ ? Verbosity::Quiet : verbose_ ? Verbosity::Verbose : Verbosity::Normal;
     return line_;
   }
@@ -95,6 +96,8 @@ class Parser {
 
   std::string help_about(const std::string& topic) const {
     if (topic.empty()) return help_of(&app_);
+    if (topic == "limits")
+      return "What inputs may ask for, as --limit NAME=VALUE changes it:\n" + limit_table();
     for (const CLI::App* verb : app_.get_subcommands(nullptr))
       if (verb->get_name() == topic) return help_of(verb);
     throw Error(ExitCode::Usage, fmt::format("unknown command \"{}\"{}", printable(topic),
@@ -156,6 +159,10 @@ class Parser {
     app->add_flag("--json", line_.json, "Print the result as JSON on stdout");
     app->add_flag("-q,--quiet", quiet_, "Say warnings and errors only");
     app->add_flag("-v,--verbose", verbose_, "Say more");
+    app->add_option("--limit", raised_,
+                    "Let inputs ask for more (or less): vertices=20M; help limits lists them")
+        ->allow_extra_args(false)
+        ->type_name("NAME=VALUE");
   }
 
   CLI::App* add_group(const std::string& name, const std::string& what) {
@@ -208,6 +215,11 @@ class Parser {
     app->add_option("--set", line_.choice.set,
                     "Set a variable of the recipe, or with a leading / any property: /output/influences=8")
         ->type_name("NAME=VALUE")
+        ->allow_extra_args(false)
+        ->group("Recipes");
+    app->add_option("--inputs-under", line_.inputs_under,
+                    "Refuse recipes with inputs elsewhere, links followed")
+        ->type_name("DIR")
         ->allow_extra_args(false)
         ->group("Recipes");
     app->add_option("--only", line_.choice.only, "Only the cells of the matrix with this value")
@@ -482,6 +494,7 @@ class Parser {
   std::string recipe_;
   std::string report_ = "full";
   bool quiet_ = false;
+  std::vector<std::string> raised_;
   bool verbose_ = false;
 };
 }  // namespace

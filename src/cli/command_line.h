@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/limits.h"
 #include "cli/console.h"
 #include "recipe/resolve.h"
 
@@ -70,12 +71,13 @@ struct CommandLine {
   Verb verb = Verb::Help;
   bool json = false;
   Verbosity verbosity = Verbosity::Normal;
-  std::vector<std::string> recipes;  ///< build, check, plan: one or more; stage: one
-  RecipeChoice choice;               ///< --set and --only
-  std::string shard;                 ///< "2/5"; empty: all
-  std::string stage;                 ///< label; stage run, explain
-  std::string against;               ///< explain: id of a run; empty: the last, or the one before
-  std::string file;                  ///< inspect, bind, deform, compare-skinning
+  std::vector<std::string> recipes;       ///< build, check, plan: one or more; stage: one
+  RecipeChoice choice;                    ///< --set and --only
+  std::vector<std::string> inputs_under;  ///< folders; empty: inputs may lie anywhere
+  std::string shard;                      ///< "2/5"; empty: all
+  std::string stage;                      ///< label; stage run, explain
+  std::string against;                    ///< explain: id of a run; empty: the last, or the one before
+  std::string file;                       ///< inspect, bind, deform, compare-skinning
   SkinningRequest skinning;
   DiffRequest diff;
   std::string out;    ///< empty: out/<name>
@@ -89,6 +91,7 @@ struct CommandLine {
   std::string junit, sarif, summary;  ///< build: files; empty: none
   double max_age_days = 0;            ///< cache gc; 0: any
   double max_size_gb = 0;             ///< cache gc; 0: any
+  Limits limits;                      ///< --limit
   bool preview = false;               ///< build: parts side by side, at once
   std::string help;                   ///< text for Verb::Help
 };

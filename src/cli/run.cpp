@@ -88,6 +88,7 @@ int run_command(const std::vector<std::string>& arguments) {
   try {
     const CommandLine line = parse_command_line(arguments);
     wants_json = line.json;
+    set_limits(line.limits);
     Console console(line.verbosity);
     return static_cast<int>(command_of(line.verb)(line, console));
   } catch (const Error& error) {

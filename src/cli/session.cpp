@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
 #include "base/text.h"
 #include "cli/build_id.h"
+#include "recipe/recipe_files.h"
 #include "stages/build.h"
 #include "stages/stage_settings.h"
 
@@ -15,11 +17,12 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 namespace {
-// Not what comes of time, memory or a child process: those may go better next time. Reading a file is quick.
+// Not what comes of time, memory, limits or a child process: those may go better next time. Reading a file is
+// quick.
 bool would_fail_again(const StageInfo& stage, ExitCode code) {
-  const bool reads_files = stage.name == "import" || stage.name == "rig";
-  return !reads_files && (code == ExitCode::StageFailed || code == ExitCode::Usage ||
-                          code == ExitCode::BadInput || code == ExitCode::Invalid);
+  const bool has_limits = stage.name == "import" || stage.name == "rig" || stage.name == "field";
+  return !has_limits && (code == ExitCode::StageFailed || code == ExitCode::Usage ||
+                         code == ExitCode::BadInput || code == ExitCode::Invalid);
 }
 }  // namespace
 
@@ -60,6 +63,26 @@ Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console&
                        .settings = recipe_settings(recipe_),
                        .reads_setting = reads_setting}) {
   set_thread_limit(line.jobs);
+  expect_inputs_under(line.inputs_under);
+}
+
+void Session::expect_inputs_under(const std::vector<std::string>& folders) const {
+  if (folders.empty()) return;
+  const auto is_below = [](const fs::path& file, const fs::path& folder) {
+    const fs::path below = fs::weakly_canonical(file).lexically_relative(fs::canonical(folder));
+    return !below.empty() && *below.begin() != "..";
+  };
+  for (const fs::path& file : input_files(recipe_)) {
+    std::error_code error;
+    const bool is_inside = std::any_of(folders.begin(), folders.end(), [&](const std::string& folder) {
+      if (!fs::is_directory(folder, error))
+        throw Error(ExitCode::Usage, printable(folder) + ": --inputs-under names no folder");
+      return is_below(file, folder);
+    });
+    if (!is_inside)
+      throw Error(ExitCode::Usage, fmt::format("{}: input {} is not below a folder of --inputs-under",
+                                               recipe_.where("/inputs"), printable(file.string())));
+  }
 }
 
 bool Session::add_imports() {

@@ -17,6 +17,7 @@ namespace skinforge {
 class Session {
  public:
   /// Reads the recipe. Throws Error like `load_recipe`.
+  /// Throws Error (Usage) also for an input that --inputs-under forbids; nothing has been read of it then.
   Session(const CommandLine& line, const ResolvedRecipe& recipe, Console& console);
 
   const Recipe& recipe() const { return recipe_; }
@@ -45,6 +46,8 @@ class Session {
   void tell_trouble();
 
  private:
+  void expect_inputs_under(const std::vector<std::string>& folders) const;
+
   const CommandLine& line_;
   Console& console_;
   Recipe recipe_;

@@ -10,13 +10,13 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "io/inflate.h"
 
 namespace skinforge {
 namespace {
 
 constexpr int kMaxDepth = 64;
-constexpr std::size_t kMaxItems = 100'000'000;
 constexpr std::string_view kMagic{"Kaydara FBX Binary  \0\x1a\0", 23};
 constexpr int kWideVersion = 7500;  // from here on offsets have 64 bits
 
@@ -334,8 +334,8 @@ FbxFile parse_fbx(const Bytes& bytes) {
 
 std::vector<double> numbers(const FbxArray& array) {
   if (array.type == 't') return array.text;
-  if (array.count > kMaxItems) fail(fmt::format("an array of {} items", array.count));
-  const std::size_t size = array.count * item_size(array.type);
+  const std::size_t size = array.count * item_size(array.type);  // 32 bits times 8
+  if (size > limits().inflate) fail(fmt::format("an array of {} bytes, {}", size, limit_hint("inflate")));
   std::vector<std::byte> unpacked;
   std::span<const std::byte> data = array.data;
   if (array.is_packed) {

@@ -7,12 +7,11 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/text.h"
 
 namespace skinforge {
 namespace {
-
-constexpr std::size_t kMaxVertices = 10'000'000;
 
 /// Frames per second of the time modes of the FBX SDK (FbxTime::EMode).
 double rate_of_mode(std::int64_t mode, double custom) {
@@ -87,8 +86,8 @@ std::size_t check_geometry(const FbxNode& geometry) {
   const std::vector<double> coordinates = numbers_of(geometry.child("Vertices"));
   const std::vector<double> corners = numbers_of(geometry.child("PolygonVertexIndex"));
   const std::size_t count = coordinates.size() / 3;
-  if (count > kMaxVertices)
-    throw Error(ExitCode::BadInput, fmt::format("FBX: {} vertices, the limit is {}", count, kMaxVertices));
+  if (count > limits().vertices)
+    throw Error(ExitCode::BadInput, fmt::format("FBX: {} vertices, {}", count, limit_hint("vertices")));
   for (const double corner : corners) {
     const double vertex = corner < 0 ? -corner - 1 : corner;  // the last of a face is written as ~index
     if (!(vertex < static_cast<double>(count)))

@@ -9,11 +9,11 @@
 #include <limits>
 #include <utility>
 
+#include "base/limits.h"
+
 namespace skinforge {
 namespace {
 
-constexpr std::size_t kMaxElements =
-    10'000'000;  // only for accessors without data: what has data is bounded by it
 constexpr std::size_t kMinStride = 4, kMaxStride = 252;  // glTF 2.0, bufferView schema
 
 std::size_t component_size(int type) {
@@ -142,9 +142,9 @@ void GltfAccessors::read_data(const JsonPlace& place, GltfAccessor& accessor) co
   const std::size_t size = element_size(accessor);
   const auto reference = place.find("bufferView");
   if (!reference) {
-    if (accessor.count > kMaxElements)
+    if (accessor.count > limits().vertices)  // what has data is bounded by it
       place.get("count").fail(
-          fmt::format("{} elements without data, the limit is {}", accessor.count, kMaxElements));
+          fmt::format("{} elements without data, {}", accessor.count, limit_hint("vertices")));
     return;
   }
   const View& view = views_[reference->index(views_.size(), "buffer view")];

@@ -6,14 +6,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/text.h"
 
 namespace skinforge {
 namespace {
 
-constexpr double kMaxSeconds = 24 * 3600;
-constexpr std::size_t kMaxNumbers = 200'000'000;  // keys of all channels, 1.6 GB
-constexpr double kUnitQuaternion = 5e-3;          // as for nodes: what rounding to 8 bits leaves
+constexpr double kUnitQuaternion = 5e-3;  // as for nodes: what rounding to 8 bits leaves
 
 /// Keys of one channel as the file has them.
 struct Keys {
@@ -105,8 +104,8 @@ class AnimationReader {
       sampler.get("output").fail(fmt::format("{} elements for {} key times, wanted {}", output.count,
                                              times.count, times.count * keys.per_key * elements));
     number_count_ += times.count + output.count * output.components;
-    if (number_count_ > kMaxNumbers)
-      input.fail(fmt::format("more than {} numbers in animations", kMaxNumbers));
+    if (number_count_ > limits().keys)
+      input.fail(fmt::format("{} numbers in keys up to here, {}", number_count_, limit_hint("keys")));
     keys.times = GltfAccessors::values(times).numbers;
     keys.values = GltfAccessors::values(output);
     check_times(input, keys);
@@ -118,8 +117,8 @@ class AnimationReader {
     if (t.front() < 0) input.fail(fmt::format("the first key time is {}", t.front()));
     for (std::size_t i = 1; i < t.size(); ++i)
       if (t[i] < t[i - 1]) input.fail(fmt::format("key time {} follows {}", t[i], t[i - 1]));
-    if (t.back() > kMaxSeconds)
-      input.fail(fmt::format("key time {} s, the limit is {} s", t.back(), kMaxSeconds));
+    if (t.back() > static_cast<double>(limits().clip))
+      input.fail(fmt::format("key time {} s, {}", t.back(), limit_hint("clip")));
     if (keys.interpolation == Interpolation::CubicSpline && t.size() < 2)
       issues_.warn("cubic-spline-short", document_.at(input), "CUBICSPLINE needs two keys; there is one");
   }

@@ -8,12 +8,12 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/text.h"
 
 namespace skinforge {
 namespace {
 
-constexpr std::size_t kMaxVertices = 10'000'000;
 constexpr std::size_t kMaxWeightSets = 4;  // 16 influences a vertex
 constexpr std::size_t kMaxUvSets = 8;
 constexpr std::size_t kTriangles = 4, kStrip = 5, kFan = 6;  // primitive modes
@@ -160,7 +160,8 @@ class MeshReader {
 
   void count_vertices(const JsonPlace& place, std::size_t more) {
     vertex_count_ += more;
-    if (vertex_count_ > kMaxVertices) place.fail(fmt::format("more than {} vertices", kMaxVertices));
+    if (vertex_count_ > limits().vertices)
+      place.fail(fmt::format("{} vertices up to here, {}", vertex_count_, limit_hint("vertices")));
   }
 
   void check_counts(const JsonPlace& attributes, std::size_t wanted) const {

@@ -8,12 +8,12 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "io/trs.h"
 
 namespace skinforge {
 namespace {
 
-constexpr std::size_t kMaxNodes = 65'536, kMaxDepth = 1'024, kMaxJoints = 4'096;
 constexpr double kUnitQuaternion =
     5e-3;                            // what rounding to 8 bits leaves; the Khronos validator allows as much
 constexpr double kAffineRow = 1e-6;  // last row of a float matrix that went through a few products
@@ -56,8 +56,8 @@ class NodeReader {
       : document_(document), scene_(scene), issues_(issues), places_(document.root.objects("nodes")) {}
 
   void read() {
-    if (places_.size() > kMaxNodes)
-      document_.root.get("nodes").fail(fmt::format("{} nodes, the limit is {}", places_.size(), kMaxNodes));
+    if (places_.size() > limits().nodes)
+      document_.root.get("nodes").fail(fmt::format("{} nodes, {}", places_.size(), limit_hint("nodes")));
     mesh_count_ = document_.root.objects("meshes").size();
     skin_places_ = document_.root.objects("skins");
     for (const JsonPlace& place : places_) scene_.nodes.push_back(read_node(place));
@@ -121,8 +121,9 @@ class NodeReader {
     while (!open.empty()) {
       const std::size_t node = open.back();
       open.pop_back();
-      if (depth[node] > kMaxDepth)
-        places_[node].fail(fmt::format("the node tree is more than {} levels deep", kMaxDepth));
+      if (depth[node] > limits().depth)
+        places_[node].fail(
+            fmt::format("the node tree is {} levels deep here, {}", depth[node], limit_hint("depth")));
       tree_.first[node] = tree_.order.size();
       tree_.order.push_back(node);
       for (const std::size_t child : children_[node])
@@ -155,8 +156,9 @@ class NodeReader {
     RawScene::Skin skin;
     skin.name = place.text_or("name", "");
     const JsonPlace joints = place.get("joints");
-    if (joints.size() == 0 || joints.size() > kMaxJoints)
-      joints.fail(fmt::format("{} joints, wanted 1 to {}", joints.size(), kMaxJoints));
+    if (joints.size() == 0) joints.fail("a skin without joints");
+    if (joints.size() > limits().joints)
+      joints.fail(fmt::format("{} joints, {}", joints.size(), limit_hint("joints")));
     std::set<std::int32_t> seen;
     for (std::size_t i = 0; i < joints.size(); ++i) {
       skin.joints.push_back(static_cast<std::int32_t>(joints.at(i).index(places_.size(), "node")));

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/expect.h"
+#include "base/limits.h"
 #include "io/export.h"
 #include "io/png_chunks.h"
 
@@ -38,9 +39,6 @@
 namespace skinforge {
 namespace {
 
-constexpr std::uint32_t kMaxSide = 16'384;
-constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;  // 268 million
-
 using ByteSpan = std::span<const std::byte>;
 
 [[noreturn]] void bad(const std::string& sentence) {
@@ -56,8 +54,10 @@ std::uint32_t big_endian(ByteSpan bytes, std::size_t offset, std::size_t size) {
 
 ImageHeader checked(std::string mime, std::uint32_t width, std::uint32_t height) {
   if (width == 0 || height == 0) bad("image without pixels");
-  if (width > kMaxSide || height > kMaxSide || std::uint64_t{width} * height > kMaxPixels)
-    bad(fmt::format("image of {} x {} pixels, the limit is {} a side", width, height, kMaxSide));
+  if (width > limits().image_side || height > limits().image_side)
+    bad(fmt::format("image of {} x {} pixels, {}", width, height, limit_hint("image-side")));
+  if (std::uint64_t{width} * height > limits().pixels)
+    bad(fmt::format("image of {} x {} pixels, {}", width, height, limit_hint("pixels")));
   return {std::move(mime), static_cast<int>(width), static_cast<int>(height)};
 }
 
@@ -153,6 +153,11 @@ Bytes encode_png(const Raster& raster) {
 Raster decode_image(const Image& image) {
   const ImageHeader header = inspect_image(image.bytes);
   if (image.bytes.size() > INT_MAX) bad("image of more than 2 GB");
+  constexpr std::uint64_t kPerPixel = 12;  // filtered rows, decoded pixels and ours, four bytes each
+  const std::uint64_t needed = kPerPixel * static_cast<std::uint64_t>(header.width) * header.height;
+  if (needed > limits().memory)
+    bad(fmt::format("decoding {} x {} pixels takes {} bytes, {}", header.width, header.height, needed,
+                    limit_hint("memory")));
   Raster raster;
   int channels = 0;
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(

@@ -164,7 +164,8 @@ bool is_read(const std::vector<InputFile>& files, const std::string& path) {
 InputFile read_input_file(const std::string& path, std::size_t max_bytes) {
   const Descriptor file(open_to_read(path));
   const std::size_t size = regular_size(path, file.number());
-  if (size > max_bytes) bad(path, fmt::format("{} bytes, the limit is {}", size, max_bytes));
+  if (size > max_bytes)
+    bad(path, fmt::format("{} bytes, the limit is {}; --limit file=N raises it", size, max_bytes));
   InputFile input{path, read_all(path, file.number(), size, max_bytes), {}};
   input.digest = sha256(input.bytes);
   return input;

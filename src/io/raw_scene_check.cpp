@@ -7,11 +7,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/limits.h"
 
 namespace skinforge {
 namespace {
-
-constexpr std::size_t kMaxNodes = 65'536, kMaxDepth = 1'024, kMaxVertices = 10'000'000;
 
 [[noreturn]] void fail(const std::string& sentence) {
   throw Error(ExitCode::BadInput, sentence);
@@ -55,21 +54,22 @@ void check_tree(const RawScene& scene) {
     std::size_t at = n;
     while (depth[at] == 0) {
       path.push_back(at);
-      if (path.size() > kMaxDepth)
-        fail(fmt::format("node {}: in a cycle, or over {} levels deep", n, kMaxDepth));
+      if (path.size() > limits().depth)
+        fail(fmt::format("node {}: in a cycle, or too many levels deep, {}", n, limit_hint("depth")));
       const std::int32_t parent = scene.nodes[at].parent;
       if (parent < 0) break;
       at = static_cast<std::size_t>(parent);
     }
     std::size_t level = depth[at];
     for (auto node = path.rbegin(); node != path.rend(); ++node) depth[*node] = ++level;
-    if (level > kMaxDepth) fail(fmt::format("node {}: over {} levels deep", n, kMaxDepth));
+    if (level > limits().depth)
+      fail(fmt::format("node {}: {} levels deep, {}", n, level, limit_hint("depth")));
   }
 }
 
 void check_nodes(const RawScene& scene) {
-  if (scene.nodes.size() > kMaxNodes)
-    fail(fmt::format("{} nodes, the limit is {}", scene.nodes.size(), kMaxNodes));
+  if (scene.nodes.size() > limits().nodes)
+    fail(fmt::format("{} nodes, {}", scene.nodes.size(), limit_hint("nodes")));
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
     const RawScene::Node& node = scene.nodes[n];
     if (!none_or_in_range(node.parent, scene.nodes.size())) fail(fmt::format("node {}: no such parent", n));
@@ -91,7 +91,8 @@ void check_weights(const RawScene::Primitive& p, const std::string& place) {
 void check_primitive(const RawScene::Primitive& p, const RawScene& scene, std::size_t targets,
                      const std::string& place) {
   const std::size_t count = p.positions.size();
-  if (count > kMaxVertices) fail(fmt::format("{}: {} vertices, the limit is {}", place, count, kMaxVertices));
+  if (count > limits().vertices)
+    fail(fmt::format("{}: {} vertices, {}", place, count, limit_hint("vertices")));
   if (!none_or_in_range(p.material, scene.materials.size())) fail(place + ": no such material");
   const auto fits = [&](std::size_t size) { return size == 0 || size == count; };
   if (!fits(p.normals.size()) || !fits(p.colors.size()) ||
@@ -152,6 +153,9 @@ void check_track(const Track<Value>& track, const std::string& place) {
   const std::size_t per_key = track.interpolation == Interpolation::CubicSpline ? 3 : 1;
   if (track.values.size() != per_key * track.times.size()) fail(place + ": keys and values do not match");
   if (!all_finite(track.times) || !all_finite(track.values)) fail(place + ": a key is not finite");
+  const auto most = static_cast<double>(limits().clip);
+  for (const double time : track.times)
+    if (std::abs(time) > most) fail(fmt::format("{}: key time {} s, {}", place, time, limit_hint("clip")));
 }
 
 void check_animations(const RawScene& scene) {

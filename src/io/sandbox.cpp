@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <new>
 
 #include "base/error.h"
@@ -26,7 +27,6 @@ extern char** environ;
 namespace skinforge {
 namespace {
 
-constexpr std::size_t kMaxAnswer = std::size_t{4} << 30;  // far above what fits the child's memory
 constexpr int kOutOfMemory = 75;  // exit status of the child; EX_TEMPFAIL of sysexits.h
 constexpr const char* kMark = "SKINFORGE_IMPORT_WORKER";  // in the environment of every worker
 
@@ -35,14 +35,16 @@ std::string& worker_path() {
   return path;
 }
 
-/// What the child is to do. No `fields` of `InputFile`: only here it crosses a process.
+/// What the child is to do, and within which limits. No `fields` of `InputFile`: only here it crosses a
+/// process.
 struct Task {
   SandboxLimits limits;
+  Limits of_scene;
   std::vector<InputFile> files;
 
   template <class Archive>
   friend void fields(Archive& a, Task& t) {
-    a(t.limits.address_space, t.limits.stack, t.limits.cpu_seconds, t.limits.wall_seconds);
+    a(t.limits.address_space, t.limits.stack, t.limits.cpu_seconds, t.limits.wall_seconds, t.of_scene);
     std::uint64_t count = t.files.size();
     a(count);
     t.files.resize(count);
@@ -91,7 +93,8 @@ void write_all(int descriptor, std::span<const std::byte> bytes) {
   }
 }
 
-Bytes read_all(int descriptor) {
+/// Up to `most` bytes; more are left unread.
+Bytes read_all(int descriptor, std::size_t most) {
   constexpr std::size_t kStep = std::size_t{1} << 20;
   Bytes bytes;
   std::size_t filled = 0;
@@ -102,7 +105,7 @@ Bytes read_all(int descriptor) {
     if (got < 0) system_failed("cannot read from the importer");
     if (got == 0) break;
     filled += static_cast<std::size_t>(got);
-    if (filled > kMaxAnswer) break;
+    if (filled > most) break;
     if (filled == bytes.size()) bytes.resize(2 * filled);
   }
   bytes.resize(filled);
@@ -242,10 +245,14 @@ void check_end(int status, const SandboxLimits& limits) {
   std::string how = fmt::format("importer crashed (signal {})", number);
   if (number == 0) how = fmt::format("importer ended with status {}", WEXITSTATUS(status));
   if (number == 0 && WEXITSTATUS(status) == kOutOfMemory)
-    how = fmt::format("importer needs more than {} MB of memory", limits.address_space >> 20);
+    how = fmt::format("importer needs more than {} MB of memory; --limit import-memory=N gives more",
+                      limits.address_space >> 20);
   if (number == SIGXCPU || number == SIGKILL)
-    how = fmt::format("importer took more than {} s", limits.cpu_seconds);
-  if (number == SIGALRM) how = fmt::format("importer did not answer for {} s", limits.wall_seconds);
+    how =
+        fmt::format("importer took more than {} s; --limit import-seconds=N gives more", limits.cpu_seconds);
+  if (number == SIGALRM)
+    how = fmt::format("importer did not answer for {} s; --limit import-wait=N gives more",
+                      limits.wall_seconds);
   throw Error(ExitCode::BadInput, how);
 }
 
@@ -259,7 +266,7 @@ Answer parse_answer(const Bytes& bytes) {
 
 Answer ask_worker(const std::vector<InputFile>& files, const SandboxLimits& limits) {
   Descriptor task, answer_in, answer_out;
-  store({limits, files}, task);
+  store({limits, skinforge::limits(), files}, task);
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) system_failed("cannot listen to the importer");
   answer_in.reset(ends[0]);
@@ -267,7 +274,7 @@ Answer ask_worker(const std::vector<InputFile>& files, const SandboxLimits& limi
   const pid_t child = start_worker(files.front().path, task.number(), answer_out.number());
   answer_out.reset();
   task.reset();
-  const Bytes bytes = read_all(answer_in.number());
+  const Bytes bytes = read_all(answer_in.number(), limits.address_space);  // it had to fit in there
   answer_in.reset();
   check_end(wait_for(child), limits);
   return parse_answer(bytes);
@@ -291,7 +298,8 @@ void set_import_worker(std::string executable) {
 
 int import_worker_main(int, char**) {
   try {
-    const auto task = from_bytes<Task>(read_all(STDIN_FILENO));
+    const auto task = from_bytes<Task>(read_all(STDIN_FILENO, std::numeric_limits<std::size_t>::max()));
+    set_limits(task.of_scene);
     if (task.files.empty()) return 1;
     std::set_new_handler(end_without_memory);
     enter_cell(task.limits);

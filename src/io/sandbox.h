@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/limits.h"
 #include "io/import.h"
 
 /// Parsing of untrusted files in a child process: a crash, endless loop or memory bomb of a foreign parser
@@ -12,11 +13,11 @@ namespace skinforge {
 
 /// What the child may use.
 struct SandboxLimits {
-  std::size_t address_space = std::size_t{2}
-                              << 30;           ///< bytes, beside what the program itself maps at its start
-  std::size_t stack = std::size_t{512} << 20;  ///< bytes
-  int cpu_seconds = 10;
-  int wall_seconds = 120;  ///< against a child that sleeps
+  std::size_t address_space =
+      limits().import_memory;                 ///< bytes, beside what the program itself maps at its start
+  std::size_t stack = limits().import_stack;  ///< bytes
+  std::uint64_t cpu_seconds = limits().import_seconds;
+  std::uint64_t wall_seconds = limits().import_wait;  ///< against a child that sleeps
 };
 
 /// Reads `files` with Assimp (assimp_reader.h) in a new process. The child gets the bytes, can open neither

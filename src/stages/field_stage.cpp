@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/limits.h"
 #include "stages/site_solids.h"
 #include "stages/stages.h"
 #include "stages/surface_options.h"
@@ -16,7 +20,7 @@ class Field final : public Stage {
   StageInfo info() const override {
     return {.name = "field",
             .instance = std::to_string(site_ + 1),
-            .version = 2,
+            .version = 3,
             .reads = {names_.graft(), names_.placed(), names_.selection(), names_.groups()},
             .writes = {names_.field(site_), names_.vdb(site_)}};
   }
@@ -25,25 +29,33 @@ class Field final : public Stage {
     key.add_value("options", options_);
   }
 
-  void run(const StageInput& in, StageOutput& out, IssueSink& issues) const override {
+  void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
     SiteField field;
     for (const SiteGroup& group : in.get<std::vector<SiteGroup>>(names_.groups())) {
       if (group.front() != site_) continue;  // the first site of a group makes the field of all
       const SiteSolids solids =
           site_solids(in.get<Graft>(names_.graft()), group, in.get<std::vector<PolygonMesh>>(names_.placed()),
                       in.get<std::vector<SourceSelection>>(names_.selection()));
-      if (solids.can_blend()) field = build_site_field(solids.solids, options_);
+      if (solids.can_blend()) field = build_site_field(solids.solids, options_for(solids.solids));
     }
-    constexpr double kNoticed = 1.001;  // ours: rounding aside
-    if (!field.is_empty() && options_.voxel > 0 && field.voxel() > kNoticed * options_.voxel)
-      issues.warn(
-          "voxel-enlarged", fmt::format("op {}", site_ + 1),
-          fmt::format("voxels of {} m are too many here; they are {:.4g} m", options_.voxel, field.voxel()));
     out.put(names_.vdb(site_), field.is_empty() ? Bytes() : to_vdb(field.distance));
     out.put(names_.field(site_), std::move(field));
   }
 
  private:
+  // A voxel that the recipe asks for is taken as it is, or refused; one of our own choice grows instead.
+  FieldOptions options_for(const std::vector<FusionSolid>& solids) const {
+    if (options_.voxel <= 0) return options_;
+    const LatticeCost cost = lattice_cost(solids, options_);
+    if (cost.bytes > static_cast<double>(limits().memory))
+      throw Error(ExitCode::StageFailed,
+                  fmt::format("op {}: voxels of {} m make {:.3g} lattice points of {:.3g} bytes; {}",
+                              site_ + 1, options_.voxel, cost.points, cost.bytes, limit_hint("memory")));
+    FieldOptions wanted = options_;
+    wanted.max_points = std::max(wanted.max_points, static_cast<std::size_t>(std::ceil(2 * cost.points)));
+    return wanted;
+  }
+
   ArtifactNames names_;
   std::size_t site_;
   FieldOptions options_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/quad_pairing.h"
+#include "stages/clip_limits.h"
 #include "stages/clip_merge.h"
 #include "stages/stages.h"
 
@@ -41,6 +42,7 @@ class Import final : public Stage {
     for (std::size_t i = 1; i < parameters_.file_names.size(); ++i)
       merge_clips(character, read(in, parameters_.file_names[i], next, issues),
                   parameters_.file_names[i].front(), issues);
+    expect_clips_in_limits(character);
     character.name = parameters_.input;
     character.mesh = recover_quads(character.mesh);
     InputContents contents{character.skeleton.names(), {}, source_files(in)};

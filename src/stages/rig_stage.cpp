@@ -1,4 +1,5 @@
 #include "geometry/quad_pairing.h"
+#include "stages/clip_limits.h"
 #include "stages/rig_tables.h"
 #include "stages/stages.h"
 
@@ -36,6 +37,7 @@ class Rig final : public Stage {
     InputContents contents;
     const Files files = sort_files(in, contents);
     Rigged rigged = read_rigged(files.rig, parameters_.bind, issues);
+    expect_clips_in_limits(rigged.character);
     std::vector<PosedShape> examples;
     for (std::size_t i = 0; i < files.shapes.size(); ++i)
       examples.push_back({read_shape(files.shapes[i].front(), rigged), read_pose(files.poses[i], rigged)});

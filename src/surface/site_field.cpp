@@ -156,6 +156,18 @@ Lattice field_lattice(const std::vector<FusionSolid>& solids, const FieldOptions
   return make_lattice(given_up_region(solids, box), voxel, options);
 }
 
+LatticeCost lattice_cost(const std::vector<FusionSolid>& solids, const FieldOptions& options) {
+  const Box region = affected_region(solids);
+  if (region.isEmpty()) return {};
+  const double voxel = choose_voxel(solids, region, options);
+  if (!(voxel > 0) || !std::isfinite(voxel)) return {};
+  const Box box = given_up_region(solids, region);
+  const double points = (box.sizes().array() / voxel + 2 * options.margin_voxels + 2).prod();
+  constexpr double kSample = 8, kResult = 4;  // distance and presence of each solid; what the blend gives
+  constexpr double kGrid = 12;                // ours: the tree that OpenVDB makes of it, and its file
+  return {points, points * (kSample * static_cast<double>(solids.size()) + kResult + kGrid)};
+}
+
 SiteField build_site_field(const std::vector<FusionSolid>& solids, const FieldOptions& options) {
   SiteField field;
   field.distance.lattice = field_lattice(solids, options);

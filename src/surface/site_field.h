@@ -46,6 +46,13 @@ Eigen::AlignedBox3d affected_region(const std::vector<FusionSolid>& solids);
 /// The lattice on which `build_site_field` samples; without points when nothing is affected.
 Lattice field_lattice(const std::vector<FusionSolid>& solids, const FieldOptions& options);
 
+/// How many points the lattice would have without `max_points`, and how many bytes `build_site_field` takes
+/// for them at its height. In doubles: a voxel may be as small as it likes.
+struct LatticeCost {
+  double points = 0, bytes = 0;
+};
+LatticeCost lattice_cost(const std::vector<FusionSolid>& solids, const FieldOptions& options);
+
 /// Samples the solids in the affected region and blends them by Eq. 1: of those that fade by presence each
 /// point follows the two of highest presence (Sec. 6.1, last paragraph), then the added ones are united with
 /// that. Empty when nothing is affected.

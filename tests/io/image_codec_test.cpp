@@ -67,7 +67,7 @@ TEST(ImageCodec, RefusesHugeImagesBeforeDecoding) {
   const auto begin = text.find("\x89PNG");
   ASSERT_NE(begin, std::string::npos);
   EXPECT_THAT(message({file.begin() + static_cast<std::ptrdiff_t>(begin), file.end()}),
-              HasSubstr("40000 x 40000 pixels, the limit is 16384 a side"));
+              HasSubstr("40000 x 40000 pixels, the limit is 16384; --limit image-side=N raises it"));
 }
 
 TEST(ImageCodec, DecodesTheImagesOfRealAssets) {

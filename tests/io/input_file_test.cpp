@@ -66,7 +66,7 @@ TEST_F(InputFileTest, SaysWhyAFileCannotBeRead) {
     read_input_file(four, 3);
     FAIL() << "a file over the limit was read";
   } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()), four + ": 4 bytes, the limit is 3");
+    EXPECT_EQ(std::string(error.what()), four + ": 4 bytes, the limit is 3; --limit file=N raises it");
   }
 }
 

@@ -85,8 +85,11 @@ TEST(Sandbox, SmallMemoryNeverHarmsTheParent) {
     try {
       EXPECT_EQ(to_bytes(read_in_child(files, limits)), whole) << megabytes;
     } catch (const Error& error) {
-      EXPECT_THAT(error.what(),
-                  EndsWith(fmt::format("eagle.fbx: importer needs more than {} MB of memory", megabytes)));
+      EXPECT_THAT(
+          error.what(),
+          EndsWith(fmt::format(
+              "eagle.fbx: importer needs more than {} MB of memory; --limit import-memory=N gives more",
+              megabytes)));
       ++refused;
     }
   }
@@ -101,7 +104,8 @@ TEST(Sandbox, TimeLimitIsOneLine) {
   limits.address_space = std::size_t{64} << 30;
   std::string text = kTriangle;
   for (int face = 0; face < 8'000'000; ++face) text += "f 1 2 3\n";
-  EXPECT_EQ(refusal({file_of("large.obj", text)}, limits), "large.obj: importer took more than 1 s");
+  EXPECT_EQ(refusal({file_of("large.obj", text)}, limits),
+            "large.obj: importer took more than 1 s; --limit import-seconds=N gives more");
 }
 
 TEST(Sandbox, GarbageFromTheWorkerIsRefused) {
