@@ -283,7 +283,7 @@ void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const A
     engine.add(make_complete_clip_stage(names, recipe, sources.size(), clip));
   if (recipe.correctives.method != RecipeDeform::None) engine.add(make_correct_stage(names, recipe, clips));
   engine.add(make_export_stage(names, recipe, clips));
-  engine.add(make_validate_stage(names));
+  engine.add(make_validate_stage(names, recipe));
   if (level != ReportLevel::None) add_report(recipe, clips, sources.size(), level, engine, names);
   if (!recipe.expect.is_empty()) engine.add(make_expect_stage(names, recipe));  // nothing waits for it
 }

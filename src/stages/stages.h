@@ -105,8 +105,8 @@ StagePointer make_correct_stage(const ArtifactNames& names, const Recipe& recipe
 StagePointer make_export_stage(const ArtifactNames& names, const Recipe& recipe,
                                std::span<const ClipRequest> clips);
 
-/// glb, result -> validation: the file read back and compared.
-StagePointer make_validate_stage(const ArtifactNames& names);
+/// glb, result, issues of the imports -> validation: the file read back and compared. What an input has is no fault.
+StagePointer make_validate_stage(const ArtifactNames& names, const Recipe& recipe);
 
 /// result, surface, quality:* -> picture:*.
 StagePointer make_pictures_stage(const ArtifactNames& names, const Recipe& recipe,

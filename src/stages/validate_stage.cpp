@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <set>
+
 #include "io/import.h"
+#include "stages/inputs.h"
 #include "stages/stages.h"
 #include "stages/validation.h"
 
@@ -11,13 +14,16 @@ namespace {
 /// the build with exit 4.
 class Validate final : public Stage {
  public:
-  explicit Validate(ArtifactNames names) : names_(std::move(names)) {}
+  Validate(ArtifactNames names, std::vector<std::string> inputs)
+      : names_(std::move(names)), inputs_(std::move(inputs)) {}
 
   StageInfo info() const override {
-    return {.name = "validate",
-            .version = 1,
-            .reads = {names_.glb(), names_.result()},
-            .writes = {names_.validation()}};
+    StageInfo info{.name = "validate",
+                   .version = 2,
+                   .reads = {names_.glb(), names_.result()},
+                   .writes = {names_.validation()}};
+    for (const std::string& input : inputs_) info.reads.push_back(issues_artifact(names_.imported(input)));
+    return info;
   }
   void add_to_key(Hasher&) const override {}
 
@@ -26,8 +32,9 @@ class Validate final : public Stage {
     IssueSink repairs;
     const Character read = build_character(read_scene({file}), "output.glb", repairs);
     Validation validation = compare_with_written(in.get<Character>(names_.result()), read);
+    const std::set<std::string> known = oddities_of_inputs(in);
     for (const Issue& issue : repairs.issues())
-      if (issue.severity == Severity::Warning)
+      if (issue.severity == Severity::Warning && !known.contains(issue.code))
         validation.faults.push_back(fmt::format("{}: {}", issue.code, issue.message));
     if (!validation.faults.empty())
       throw Error(ExitCode::Invalid,
@@ -36,13 +43,23 @@ class Validate final : public Stage {
   }
 
  private:
+  // What an input has (doubled faces, joints at one place) and was told of goes over into the result.
+  std::set<std::string> oddities_of_inputs(const StageInput& in) const {
+    std::set<std::string> codes;
+    for (const std::string& input : inputs_)
+      for (const Issue& issue : in.get<std::vector<Issue>>(issues_artifact(names_.imported(input))))
+        codes.insert(issue.code);
+    return codes;
+  }
+
   ArtifactNames names_;
+  std::vector<std::string> inputs_;
 };
 
 }  // namespace
 
-StagePointer make_validate_stage(const ArtifactNames& names) {
-  return std::make_unique<Validate>(names);
+StagePointer make_validate_stage(const ArtifactNames& names, const Recipe& recipe) {
+  return std::make_unique<Validate>(names, input_names(recipe));
 }
 
 }  // namespace skinforge

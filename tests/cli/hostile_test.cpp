@@ -84,5 +84,59 @@ TEST(Hostile, ABrokenInputIsNamedByItsRecipe) {
   }
 }
 
+// Faces that lie on each other in the input do so in the output, and all joints of a skin without inverse
+// bind matrices stand at one place: warned of, no fault of what was written.
+TEST(Hostile, WhatAnInputHasIsNoFaultOfTheOutput) {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder / "a.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+  std::ofstream(folder / "r.json")
+      << R"({ "recipe_version": 1, "name": "r", "inputs": { "a": "a.obj" }, "base": "a", "ops": [] })";
+  const auto result =
+      Program(SKINFORGE_BINARY, {"build", "r.json", "--cache", "cache", "--out", "out", "--report", "json"},
+              folder.path())
+          .finish();
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(fs::exists(folder / "out/r.glb"));
+  std::ifstream report(folder / "out/report.json");
+  EXPECT_THAT((std::string(std::istreambuf_iterator<char>(report), {})), HasSubstr("faces-doubled"));
+}
+
+// A recipe from anywhere reads what it may: links count by where they lead.
+TEST(Hostile, InputsCanBeKeptBelowAFolder) {
+  const testing::TemporaryFolder folder;
+  fs::create_directories(folder / "project/models");
+  fs::copy_file(testing::repository_file("data/human.obj"), folder / "secret.obj");
+  fs::create_symlink("../../secret.obj", folder / "project/models/link.obj");
+  for (const char* input : {"../secret.obj", "models/link.obj"}) {
+    std::ofstream(folder / "project/r.json") << R"({ "recipe_version": 1, "name": "r",
+  "inputs": { "a": ")" << input << R"(" }, "base": "a", "ops": [] })";
+    const auto plan = [&](const std::string& root) {
+      return Program(SKINFORGE_BINARY, {"plan", "project/r.json", "--inputs-under", root, "--cache", "cache"},
+                     folder.path())
+          .finish();
+    };
+    EXPECT_EQ(plan(".").status, 0) << plan(".").err;
+    EXPECT_EQ(plan("project").status, 2);
+    EXPECT_THAT(plan("project").err, HasSubstr("is not below a folder of --inputs-under"));
+    EXPECT_EQ(plan("nowhere").status, 2);
+  }
+}
+
+TEST(Hostile, LimitsAreToldAndRaisedOnTheCommandLine) {
+  const testing::TemporaryFolder folder;
+  const auto inspect = [&](const std::string& limit) {
+    return Program(SKINFORGE_BINARY,
+                   {"inspect", testing::repository_file("data/human.fbx"), "--limit", limit}, folder.path())
+        .finish();
+  };
+  EXPECT_EQ(inspect("nodes=5").status, kBadInput);
+  EXPECT_THAT(inspect("nodes=5").err, HasSubstr("the limit is 5; --limit nodes=N raises it"));
+  EXPECT_EQ(inspect("nodes=5K").status, 0);
+  EXPECT_EQ(inspect("nods=5").status, 2);
+  const auto help = Program(SKINFORGE_BINARY, {"help", "limits"}, folder.path()).finish();
+  EXPECT_THAT(help.out, HasSubstr("import-seconds"));
+}
+
 }  // namespace
 }  // namespace skinforge
