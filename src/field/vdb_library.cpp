@@ -1,5 +1,7 @@
 #include <dlfcn.h>
+#include <fmt/core.h>
 #include <link.h>
+#include <sys/mman.h>
 
 #include <fstream>
 #include <iterator>
@@ -30,7 +32,19 @@ void expect_own(const std::string& path) {
     fail("this file belongs to another build of skinforge");
 }
 
+// Libraries that the module brings start threads while they are loaded and end the process when that fails
+// (log4cplus 2.0.8); so there must be room for all of it before.
+void expect_room() {
+  constexpr std::size_t kNeeded = std::size_t{160} << 20;  // ours: 93 MB measured, and stacks that come later
+  void* room = ::mmap(nullptr, kNeeded, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED)
+    throw Error(ExitCode::StageFailed,
+                fmt::format("not enough memory: {} needs {} MB of address space", kVdbModule, kNeeded >> 20));
+  ::munmap(room, kNeeded);
+}
+
 const VdbFunctions& load() {
+  expect_room();
   void* library = ::dlopen(kVdbModule, RTLD_LAZY | RTLD_LOCAL);
   if (!library) fail(std::string("cannot be loaded: ") + ::dlerror());
   expect_own(file_of(library));

@@ -89,6 +89,13 @@ bool sync(int descriptor) {
   return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;  // no such thing on this file system
 }
 
+bool rename_to(const fs::path& from, const fs::path& to) {
+  int failed = 0;
+  do failed = ::rename(from.c_str(), to.c_str());
+  while (failed != 0 && errno == EINTR);  // file systems in user space may be interrupted
+  return failed == 0;
+}
+
 // Temporary in the same folder, `finish(descriptor)`, rename.
 template <class Finish>
 bool replace_file(const fs::path& path, std::span<const std::byte> bytes, Finish finish) {
@@ -96,7 +103,7 @@ bool replace_file(const fs::path& path, std::span<const std::byte> bytes, Finish
   File file(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (!file.is_open()) return false;
   const bool is_whole = write_all(file.descriptor(), bytes) && finish(file.descriptor()) && file.close();
-  if (is_whole && ::rename(temporary.c_str(), path.c_str()) == 0) return true;
+  if (is_whole && rename_to(temporary, path)) return true;
   const int why = errno;
   ::unlink(temporary.c_str());
   errno = why;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <system_error>
 #include <thread>
 
 #include "base/expect.h"
@@ -53,7 +54,10 @@ void Engine::Session::run(const std::vector<Node*>& tasks) {
     }
   };
   std::vector<std::thread> helpers;
-  for (std::size_t i = 1; i < std::min(options.jobs, tasks.size()); ++i) helpers.emplace_back(work);
+  try {
+    for (std::size_t i = 1; i < std::min(options.jobs, tasks.size()); ++i) helpers.emplace_back(work);
+  } catch (const std::system_error&) {  // no more threads to be had; those there are do all the work
+  }
   work();
   for (std::thread& helper : helpers) helper.join();
   remember_run();
