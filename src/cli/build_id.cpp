@@ -3,14 +3,24 @@
 #include <elf.h>
 #include <link.h>
 
+#include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
 #include <string_view>
+#include <vector>
 
+#include "base/hash.h"
 #include "base/version.h"
 
 namespace skinforge {
+namespace fs = std::filesystem;
 
 namespace {
+// Loaded when a stage needs it, after the keys are made.
+constexpr const char* kLateLibrary = SKINFORGE_LATE_LIBRARY;
+
 std::string hex(const unsigned char* bytes, std::size_t size) {
   static constexpr char kDigits[] = "0123456789abcdef";
   std::string text;
@@ -32,6 +42,7 @@ std::string note_in(const char* notes, std::size_t size) {
     std::memcpy(&head, notes + at, sizeof head);
     const char* name = notes + at + sizeof head;
     const char* value = name + aligned(head.n_namesz);
+    if (value + head.n_descsz > notes + size) break;
     if (head.n_type == NT_GNU_BUILD_ID &&
         std::string_view(name, head.n_namesz) == std::string_view("GNU\0", 4))
       return hex(reinterpret_cast<const unsigned char*>(value), head.n_descsz);
@@ -40,22 +51,75 @@ std::string note_in(const char* notes, std::size_t size) {
   return {};
 }
 
-// Called for the program itself first; that is enough.
+// What is loaded: "libassimp.so.5 e4829e..." each, and where it lies.
+struct Loaded {
+  std::vector<std::string> objects;
+  std::set<fs::path> folders;
+};
+
 int visit(dl_phdr_info* object, std::size_t, void* result) {
-  auto& id = *static_cast<std::string*>(result);
+  auto& loaded = *static_cast<Loaded*>(result);
+  const fs::path path = object->dlpi_name;
+  if (path.filename().string().starts_with("linux-vdso")) return 0;  // the kernel's; it only tells the time
+  std::string id;
   for (int i = 0; i < object->dlpi_phnum && id.empty(); ++i) {
     const auto& segment = object->dlpi_phdr[i];
     if (segment.p_type == PT_NOTE)
       id = note_in(reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr), segment.p_memsz);
   }
-  return 1;
+  loaded.objects.push_back(path.filename().string() + " " + id);
+  if (path.has_parent_path()) loaded.folders.insert(path.parent_path());
+  return 0;
+}
+
+// Build id in a library's file, from its first pages; empty when it has none.
+std::string note_of_file(const fs::path& path) {
+  std::vector<char> head(16 << 10);
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  const auto size = static_cast<std::size_t>(file.gcount());
+  ElfW(Ehdr) elf;
+  if (size < sizeof elf) return {};
+  std::memcpy(&elf, head.data(), sizeof elf);
+  for (std::size_t i = 0; i < elf.e_phnum; ++i) {
+    ElfW(Phdr) segment;
+    const std::size_t at = elf.e_phoff + i * sizeof segment;
+    if (at + sizeof segment > size) break;
+    std::memcpy(&segment, head.data() + at, sizeof segment);
+    if (segment.p_type != PT_NOTE || segment.p_offset + segment.p_filesz > size) continue;
+    if (auto id = note_in(head.data() + segment.p_offset, segment.p_filesz); !id.empty()) return id;
+  }
+  return {};
+}
+
+// The library that is loaded late lies where the others do.
+void add_late_library(Loaded& loaded) {
+  for (const fs::path& folder : loaded.folders)
+    if (const std::string id = note_of_file(folder / kLateLibrary); !id.empty())
+      loaded.objects.push_back(std::string(kLateLibrary) + " " + id);
+}
+
+// The C library picks its sines and powers by what the processor can do, and they differ in the last bit.
+const char* arithmetic() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2")) return "fma";
+#endif
+  return "plain";
 }
 }  // namespace
 
 std::string build_id() {
-  std::string id;
-  ::dl_iterate_phdr(visit, &id);
-  return id.empty() ? kVersion : std::string(kVersion) + "+" + id;
+  static const std::string id = [] {
+    Loaded loaded;
+    ::dl_iterate_phdr(visit, &loaded);
+    add_late_library(loaded);
+    std::sort(loaded.objects.begin(), loaded.objects.end());
+    Hasher hasher;
+    for (const std::string& object : loaded.objects) hasher.add("object", object);
+    hasher.add("arithmetic", std::string(arithmetic()));
+    return std::string(kVersion) + "+" + hasher.finish().hex().substr(0, 40);
+  }();
+  return id;
 }
 
 }  // namespace skinforge

@@ -4,8 +4,11 @@
 
 namespace skinforge {
 
-/// Version and the linker's build id of this program, e.g. "0.1.0+4f2a...": part of every cache key, so
-/// results of another program are never taken. The version alone when the program was linked without one.
+/// Version of the program and digest of what makes its results: the linker's build ids of the program and of
+/// every library it runs with (OpenVDB's, too, which is loaded late), and which of its instruction sets the
+/// mathematical library takes on this machine, e.g. "0.1.0+4f2a...". Part of every cache key, so results of
+/// another program, another library or another arithmetic are never taken. An object that was linked without
+/// a build id counts by its name alone.
 std::string build_id();
 
 }  // namespace skinforge
