@@ -9,7 +9,7 @@ add_library(skinforge_warnings INTERFACE)
 target_compile_features(skinforge_warnings INTERFACE cxx_std_20)
 target_compile_options(skinforge_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
-  -Wno-maybe-uninitialized  # gcc 12 sees it in Eigen's fixed-size products where there is none
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>  # gcc 12 sees it in Eigen's fixed-size products where there is none
   -ffp-contract=off)  # the same bits with and without fused multiply-add
 
 # skinforge_layer(<name> [LAYERS ...] [PACKAGES ...]): one static library `skinforge_<name>` made of src/<name>/*.cpp.

@@ -10,6 +10,7 @@
     read-only    cache, then output, mounted read-only; needs root
     crowd        8 builds at once on one cache with `cache gc` beside them (20 rounds)
     changing     an input is rewritten while builds run (50 rounds)
+    surroundings threads, languages, zones, folders, umasks, layouts of memory (20 runs)
     memory       address space from 64 MB to 2 GB in steps of 64 MB
     descriptors  3 to 40 open files
     clock        files of 1970 and of 2099
@@ -52,6 +53,7 @@ def main():
         "read-only": lambda lab, args, dice: disk.read_only(lab),
         "crowd": lambda lab, args, dice: crowd.crowd(lab, 8, args.rounds or 20),
         "changing": lambda lab, args, dice: crowd.changing_input(lab, args.rounds or 50, dice),
+        "surroundings": lambda lab, args, dice: crowd.surroundings(lab, args.rounds or 20),
         "memory": lambda lab, args, dice: disk.memory(lab, range(64, 2049, 64)),
         "descriptors": lambda lab, args, dice: disk.descriptors(lab, range(3, 41)),
         "clock": lambda lab, args, dice: disk.clock(lab),

@@ -15,8 +15,10 @@ if ! command -v clang++ >/dev/null; then
   exit 2
 fi
 [ -f build/fuzz/build.ninja ] || cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target fuzz >&2
-if [ $# -gt 0 ]; then targets=("$@"); else mapfile -t targets < <(ls tests/fuzz/*.cpp | xargs -n1 basename -s .cpp | grep -vx seeds); fi
+cmake --build --preset fuzz --target skinforge_fuzz >&2
+fuzzer=$PWD/build/fuzz/tests/fuzz/skinforge_fuzz
+targets=("$@")
+[ $# -gt 0 ] || targets=(gltf character scene fbx obj dae off tgf dmat image cache recipe_json recipe_yaml)
 
 # Small files of these endings, from everywhere.
 seeds() {
@@ -40,8 +42,8 @@ seeds dae dae
 seeds fbx fbx
 seeds image png jpg
 mkdir -p build/fuzz/seeds/{scene,cache} build/fuzz/findings
-find data "$shared/hostile" -type f \( -name '*.glb' -o -name '*.fbx' -o -name '*.obj' -o -name '*.dae' \) -size -100k -print0 |
-  xargs -0 build/fuzz/tests/fuzz/fuzz_seeds build/fuzz/seeds/scene
+find data "$shared/hostile" -type f \( -name '*.glb' -o -name '*.fbx' -o -name '*.obj' -o -name '*.dae' \) -size -100k -exec cp -f {} build/fuzz/seeds/scene/ \;
+(cd build/fuzz/seeds/scene && SKINFORGE_FUZZ_TARGET=seeds "$fuzzer" -- * && find . -type f ! -name '*.scene' -delete)
 for kind in ac cas runs; do
   find .skinforge/cache/$kind -type f -size -50k -print 2>/dev/null | head -40 |
     while read -r file; do { printf a; cat "$file"; } >"build/fuzz/seeds/cache/$(basename "$file")"; done
@@ -54,9 +56,11 @@ failed=0
 for target in "${targets[@]}"; do
   mkdir -p "build/fuzz/corpus/$target"
   log=build/fuzz/$target.log
-  if ! ASAN_OPTIONS=allocator_may_return_null=0:detect_leaks=0 build/fuzz/tests/fuzz/fuzz_"$target" \
+  known=tests/data/fuzz/$target
+  [ -d "$known" ] || known=
+  if ! SKINFORGE_FUZZ_TARGET=$target ASAN_OPTIONS=detect_leaks=0 "$fuzzer" \
     -max_total_time=$((60 * minutes)) -timeout=10 -rss_limit_mb=3072 -malloc_limit_mb=2048 -print_final_stats=1 \
-    -artifact_prefix="build/fuzz/findings/$target-" "build/fuzz/corpus/$target" "build/fuzz/seeds/$target" $([ -d tests/data/fuzz/$target ] && echo tests/data/fuzz/$target) >"$log" 2>&1; then
+    -artifact_prefix="build/fuzz/findings/$target-" "build/fuzz/corpus/$target" "build/fuzz/seeds/$target" ${known:+"$known"} >"$log" 2>&1; then
     echo "$target: FINDING, see $log"
     failed=1
   fi

@@ -64,6 +64,20 @@ def crowd(lab, builders, rounds):
     print(f"crowd: {rounds} rounds of {builders} builds with cache gc beside them, {runs} right")
 
 
+def surroundings(lab, rounds):
+    """Threads, languages, time zones, folders, umasks, with and without a random layout of memory."""
+    languages, zones = ("C", "de_DE.UTF-8", "tr_TR.UTF-8"), ("UTC", "Asia/Kolkata", "America/Caracas")
+    for i in range(rounds):
+        cache, out = lab.fresh("cache"), lab.fresh("out")
+        folder = lab.fresh("here" if i % 2 else "there")
+        variables = dict(os.environ, LC_ALL=languages[i % 3], TZ=zones[i // 3 % 3], HOME=str(folder))
+        command = ["sh", "-c", f"umask {(0o22, 0o77, 0)[i % 3]:o}; cd {folder}; exec \"$@\"", "sh",
+                   *(["setarch", "-R"] if i % 4 < 2 else []), *lab.command(cache, out)]
+        command[command.index("-j") + 1] = str((1, 2, 8)[i % 3])
+        lab.expect_right(lab.call(command, env=variables), out, f"surroundings {i}")
+    print(f"surroundings: {rounds} runs over threads, languages, zones, folders, umasks, layouts")
+
+
 def changing_input(lab, rounds, random):
     """An input is rewritten all the time: each build is right for one content of it, or an error, and no entry of the
     cache is wrong for its key."""

@@ -67,5 +67,41 @@ TEST_F(Determinism, EveryFileHasTheSameBytes) {
   }
 }
 
+// Rule 18: number of threads, folder of the call, language, time zone, home, umask, layout of memory.
+TEST_F(Determinism, NothingOfTheMachineIsInTheBytes) {
+  struct Surroundings {
+    const char* name;
+    const char* jobs;
+    const char* before;  // shell words that lead the command
+    std::map<std::string, std::string> variables;
+  };
+  const std::vector<Surroundings> all = {
+      {"plain", "1", "exec", {}},
+      {"two", "2", "exec", {{"LC_ALL", "de_DE.UTF-8"}, {"TZ", "Asia/Kolkata"}}},
+      {"eight", "8", "umask 077; exec", {{"LC_ALL", "tr_TR.UTF-8"}, {"HOME", "/nowhere"}, {"TZ", "UTC+12"}}},
+      {"fixed", "2", "exec setarch -R", {{"LC_ALL", "C"}, {"USER", "x"}}},
+      {"tight",
+       "8",
+       "umask 000; exec setarch -R nice",
+       {{"MALLOC_PERTURB_", "165"}, {"MALLOC_ARENA_MAX", "1"}}}};
+  std::map<std::string, std::string> first;
+  for (const Surroundings& around : all) {
+    SCOPED_TRACE(around.name);
+    const fs::path from = folder / around.name;
+    fs::create_directories(from / "deeper");
+    fs::copy(folder / "tail.json", from);
+    for (const char* input : {"human.glb", "griffin.glb"}) fs::copy(folder / input, from);
+    const std::string command =
+        std::string(around.before) + " \"" + SKINFORGE_BINARY +
+        "\" build ../tail.json --quiet --report json --out ../out --cache ../cache -j " + around.jobs;
+    const auto run = Program("/bin/sh", {"-c", command}, from / "deeper", around.variables).finish();
+    ASSERT_EQ(run.status, 0) << run.err;
+    const auto made = contents(from / "out");
+    if (first.empty()) first = made;
+    EXPECT_GE(made.size(), 4u);
+    EXPECT_TRUE(made == first);
+  }
+}
+
 }  // namespace
 }  // namespace skinforge

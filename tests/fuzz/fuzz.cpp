@@ -1,0 +1,52 @@
+// One fuzzer for all targets; SKINFORGE_FUZZ_TARGET names the one to feed. With the name "seeds" no fuzzing:
+// each file given is read as a model and its scene written beside it as FILE.scene, as the import child hands
+// it over.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "fuzz/targets.h"
+#include "io/sandbox.h"
+
+namespace {
+using namespace skinforge;
+
+const fuzz::Target* chosen = nullptr;
+
+int write_seeds(int count, char** files) {
+  for (int i = 1; i < count; ++i) {
+    try {
+      const Bytes bytes = to_bytes(read_scene(read_input_files(files[i])));
+      std::ofstream(std::string(files[i]) + ".scene", std::ios::binary)
+          .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    } catch (const Error&) {  // hostile files are refused
+    }
+  }
+  return 0;
+}
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* count, char*** words) {
+  if (*count > 1 && std::string_view((*words)[1]) == "--import-worker")
+    std::exit(import_worker_main(*count, *words));
+  const char* name = std::getenv("SKINFORGE_FUZZ_TARGET");
+  if (name && std::string_view(name) == "seeds") std::exit(write_seeds(*count, *words));
+  chosen = name ? fuzz::find_target(name) : nullptr;
+  if (!chosen) {
+    std::fputs("SKINFORGE_FUZZ_TARGET names none of:", stderr);
+    for (const fuzz::Target& target : fuzz::kTargets)
+      std::fprintf(stderr, " %s", std::string(target.name).c_str());
+    std::fputs("\n", stderr);
+    std::exit(2);
+  }
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string complaint = fuzz::complaint(*chosen, std::as_bytes(std::span(data, size)));
+  if (!complaint.empty()) {
+    std::fprintf(stderr, "not an error of one line that blames the input: %s\n", complaint.c_str());
+    std::abort();
+  }
+  return 0;
+}
