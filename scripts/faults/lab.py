@@ -15,12 +15,12 @@ class Run:
 
 
 def digests(folder):
-    """SHA-256 of each file below a folder but timings.json, which tells of one run."""
+    """SHA-256 of each file below a folder but timings.json, which tells of one run, and temporaries."""
     folder = pathlib.Path(folder)
     return {
         str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
         for path in sorted(folder.rglob("*"))
-        if path.is_file() and path.name != "timings.json"
+        if path.is_file() and path.name != "timings.json" and not path.name.startswith(TEMPORARY)
     }
 
 
@@ -72,8 +72,8 @@ class Lab:
         return holds
 
     def expect_whole(self, out, what):
-        """Each file is absent or as it must be; temporaries do not count."""
-        found = {name: digest for name, digest in digests(out).items() if TEMPORARY not in name}
+        """Each file is absent or as it must be."""
+        found = digests(out)
         torn = [name for name, digest in found.items() if self.expected.get(name) != digest]
         return self.expect(not torn, f"{what}: {torn[:3]} in the output")
 

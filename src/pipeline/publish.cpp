@@ -82,7 +82,7 @@ std::vector<PublishedFile> publish(Engine& engine, std::span<const OutputFile> f
   const fs::path root = fs::canonical(folder);
 
   std::vector<PublishedFile> published;
-  std::set<fs::path> folders;
+  std::set<fs::path> folders, changed;
   for (const OutputFile& file : files) {
     if (!engine.has(file.artifact)) continue;
     const fs::path path = path_inside(root, file.name);
@@ -90,11 +90,14 @@ std::vector<PublishedFile> publish(Engine& engine, std::span<const OutputFile> f
     PublishedFile result{file.name, engine.digest(file.artifact), engine.size(file.artifact)};
     result.was_written = digest_of_file(path, result.size) != result.digest;
     if (result.was_written && !write_file_durably(path, engine.bytes(file.artifact))) cannot_write(path);
-    if (result.was_written) folders.insert(path.parent_path());
+    folders.insert(path.parent_path());
+    if (result.was_written) changed.insert(path.parent_path());
     published.push_back(std::move(result));
   }
-  for (const fs::path& changed : folders)
-    if (!sync_folder(changed)) cannot_write(changed);
+  for (const fs::path& written : changed)
+    if (!sync_folder(written)) cannot_write(written);
+  for (const fs::path& used : folders)
+    DiskStore(used).remove_stale_temporaries("");  // of builds that were killed
   return published;
 }
 

@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 
 #include "pipeline/text_stage.h"
@@ -83,6 +86,23 @@ TEST_F(Publish, ReplacesALinkInsteadOfFollowingIt) {
   publish(engine, std::vector<OutputFile>{{"a.glb", "glb"}}, folder / "out");
   EXPECT_EQ(read_text(folder / "target"), "old");
   EXPECT_EQ(read_text(folder / "out/a.glb"), "GLB");
+}
+
+// What a killed build left in the output goes when it is old; a young one may be another machine's.
+TEST_F(Publish, RemovesWhatKilledBuildsLeft) {
+  fs::create_directories(folder / "out");
+  const pid_t gone = ::fork();
+  if (gone == 0) ::_exit(0);
+  ::waitpid(gone, nullptr, 0);
+  const std::string prefix = ".tmp-" + std::to_string(gone);
+  for (const char* name : {"-1", "-2"}) std::ofstream(folder / ("out/" + prefix + name)) << "half";
+  fs::last_write_time(folder / ("out/" + prefix + "-1"),
+                      fs::file_time_type::clock::now() - std::chrono::hours(2));
+  for (int build = 0; build < 2; ++build)
+    publish(engine, std::vector<OutputFile>{{"a.glb", "glb"}}, folder / "out");
+  EXPECT_FALSE(fs::exists(folder / ("out/" + prefix + "-1")));
+  EXPECT_TRUE(fs::exists(folder / ("out/" + prefix + "-2")));
+  EXPECT_TRUE(fs::exists(folder / "out/a.glb"));
 }
 
 // Folders that cannot be made, files that cannot replace what is there: the message says why.
