@@ -24,6 +24,7 @@ ALLOWED = {
     "recipe": {"base"},
     "pipeline": {"base"},
     "report": {"base", "model"},
+    "html": {"base"},
 }
 ALLOWED["stages"] = set(ALLOWED)
 ALLOWED["cli"] = set(ALLOWED)
@@ -34,7 +35,7 @@ CONFINED = {
     r"stb_": {"io"},
     r"openvdb/": {"field"},
     r"OpenMesh/": {"geometry", "surface"},
-    r"nlohmann/": {"io", "recipe", "report", "pipeline", "diff", "stages", "cli"},
+    r"nlohmann/": {"io", "recipe", "report", "pipeline", "diff", "html", "stages", "cli"},
     r"yaml-cpp/": {"recipe"},
     r"valijson/": {"recipe"},
     r"CLI/": {"cli"},

@@ -9,6 +9,7 @@
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/recipe_tasks.h"
+#include "cli/report_page.h"
 #include "cli/session.h"
 #include "pipeline/publish.h"
 #include "recipe/recipe_files.h"
@@ -49,20 +50,8 @@ std::vector<fs::path> files_read(const Recipe& recipe) {
   return files;
 }
 
-// What each stage cost when it ran, which may have been in an earlier build. A file of its own, so that the
-// report compares byte for byte.
-void write_timings(const std::vector<StageResult>& stages, const fs::path& folder) {
-  Timings timings;
-  for (const StageResult& stage : stages) {
-    const auto peak = static_cast<std::int64_t>(stage.cost.peak_bytes);
-    timings.stages.push_back({stage.info.name, stage.info.instance, status_name(stage.status),
-                              stage.cost.wall_seconds, stage.cost.cpu_seconds, peak});
-    timings.wall += stage.cost.wall_seconds;
-    timings.cpu += stage.cost.cpu_seconds;
-    timings.peak_memory = std::max(timings.peak_memory, peak);
-  }
-  const std::string text = skinforge::to_json(timings);
-  write_output(folder / "timings.json", std::as_bytes(std::span(text)));
+void write_text(const fs::path& file, const std::string& text) {
+  write_output(file, std::as_bytes(std::span(text)));
 }
 
 bool has_run(const std::vector<StageResult>& stages) {
@@ -78,6 +67,18 @@ bool has_failed_only_budgets(Session& session) {
   });
 }
 
+// What differs from run to run, in files of its own, so that the others compare byte for byte.
+void write_run_files(const CommandLine& line, Session& session, const Outcome& outcome) {
+  const bool is_changed =
+      has_run(outcome.stages) || std::any_of(outcome.files.begin(), outcome.files.end(),
+                                             [](const PublishedFile& file) { return file.was_written; });
+  const fs::path timings = outcome.folder / "timings.json", page = outcome.folder / "report.html";
+  if (line.report != ReportLevel::None && (is_changed || !fs::exists(timings)))
+    write_text(timings, skinforge::to_json(session.timings()));
+  if (line.report == ReportLevel::Full && (is_changed || !fs::exists(page)))
+    write_text(page, report_page(session));
+}
+
 void build_session(const CommandLine& line, Session& session, Outcome& outcome) {
   bool is_ok = session.import();
   if (is_ok) {
@@ -90,9 +91,7 @@ void build_session(const CommandLine& line, Session& session, Outcome& outcome) 
     outcome.files = publish(session.engine(), files, outcome.folder, files_read(session.recipe()));
   }
   outcome.stages = session.engine().results();
-  const bool wants_timings = is_ok && !line.preview && line.report != ReportLevel::None;
-  if (wants_timings && (has_run(outcome.stages) || !fs::exists(outcome.folder / "timings.json")))
-    write_timings(outcome.stages, outcome.folder);
+  if (is_ok && !line.preview) write_run_files(line, session, outcome);
   session.tell_trouble();
   if (const auto failure = session.failure()) {
     outcome.code = exit_code(failure);
@@ -190,12 +189,9 @@ BuildVerdict verdict_of(const Outcome& outcome) {
 void write_for_ci(const CommandLine& line, const std::vector<Outcome>& outcomes) {
   std::vector<BuildVerdict> verdicts;
   for (const Outcome& outcome : outcomes) verdicts.push_back(verdict_of(outcome));
-  const auto write = [](const std::string& file, const std::string& text) {
-    if (!file.empty()) write_output(file, std::as_bytes(std::span(text)));
-  };
-  if (!line.junit.empty()) write(line.junit, junit_xml(verdicts));
-  if (!line.sarif.empty()) write(line.sarif, sarif(verdicts, kVersion));
-  if (!line.summary.empty()) write(line.summary, markdown_summary(verdicts));
+  if (!line.junit.empty()) write_text(line.junit, junit_xml(verdicts));
+  if (!line.sarif.empty()) write_text(line.sarif, sarif(verdicts, kVersion));
+  if (!line.summary.empty()) write_text(line.summary, markdown_summary(verdicts));
   const char* actions = std::getenv("GITHUB_ACTIONS");
   if (actions && std::string_view(actions) == "true")
     std::fputs(github_annotations(verdicts).c_str(), stderr);

@@ -194,7 +194,8 @@ class Parser {
   }
 
   void add_report_option(CLI::App* app) {
-    app->add_option("--report", report_, "What to say about the result: none, json, or full (with pictures)")
+    app->add_option("--report", report_,
+                    "What to say about the result: none, json, or full (with pictures and report.html)")
         ->check(CLI::IsMember({"none", "json", "full"}).description(""))
         ->type_name("LEVEL")
         ->default_str("full")
@@ -456,6 +457,10 @@ class Parser {
     diff->add_flag("--accept", request.accept,
                    "Put B in the place of A, with a note beside it of what changed")
         ->group("Verdict");
+    diff->add_option("--html", request.html,
+                     "Write a page with both side by side, one camera and one clock, and where they differ")
+        ->type_name("FILE")
+        ->group("Output");
     diff->add_option("--junit", request.junit, "Write the verdicts as JUnit XML, too")
         ->type_name("FILE")
         ->group("Output");

@@ -62,7 +62,7 @@ struct SkinningRequest {
 struct DiffRequest {
   std::string a, b;                     ///< model files; A is the reference
   std::vector<std::string> thresholds;  ///< "animation=0.05%"
-  std::string junit;                    ///< file; empty: none
+  std::string junit, html;              ///< files; empty: none
   bool accept = false;                  ///< B becomes the reference
 };
 

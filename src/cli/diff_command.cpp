@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/diff_page.h"
 #include "diff/diff_text.h"
 #include "io/import.h"
 #include "pipeline/publish.h"
@@ -101,6 +102,11 @@ ExitCode diff_command(const CommandLine& line, Console& console) {
   if (!request.junit.empty()) {
     const std::string xml = junit_of(findings);
     write_output(request.junit, std::as_bytes(std::span(xml)));
+  }
+  if (!request.html.empty()) {
+    const std::string page = diff_page(request, a.character, b.character, diff, findings);
+    write_output(request.html, std::as_bytes(std::span(page)));
+    console.info(request.html + " (" + readable_size(page.size()) + ")");
   }
   if (request.accept) accept(request, b.bytes, text, console);
   const ExitCode code = is_over(findings) && !request.accept ? ExitCode::Different : ExitCode::Ok;

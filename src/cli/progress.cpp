@@ -15,7 +15,14 @@ constexpr std::size_t kNameWidth = 40;
 
 void Progress::on_start(const StageInfo& info) {
   running_.insert(info.label());
+  const std::chrono::duration<double> begin = std::chrono::steady_clock::now() - start_;
+  begins_[info.label()] = begin.count();
   draw();
+}
+
+std::optional<double> Progress::begin_of(const std::string& label) const {
+  const auto found = begins_.find(label);
+  return found == begins_.end() ? std::nullopt : std::optional(found->second);
 }
 
 void Progress::on_finish(const StageResult& result) {

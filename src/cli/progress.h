@@ -1,5 +1,8 @@
 #pragma once
 
+#include <chrono>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "cli/console.h"
@@ -19,6 +22,8 @@ class Progress final : public EngineObserver {
   void on_finish(const StageResult& result) override;
   /// Takes the bar away.
   void end() { console_.status(""); }
+  /// Seconds from the beginning of the build to that of a stage; none when it did not run.
+  std::optional<double> begin_of(const std::string& label) const;
 
  private:
   void draw();
@@ -27,6 +32,8 @@ class Progress final : public EngineObserver {
   std::size_t total_ = 0;
   std::size_t done_ = 0;
   std::set<std::string> running_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::map<std::string, double> begins_;  // by label, seconds
 };
 
 }  // namespace skinforge

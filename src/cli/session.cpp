@@ -129,6 +129,20 @@ std::vector<RunRecord> Session::runs() {
   return runs;
 }
 
+Timings Session::timings() const {
+  Timings timings;
+  for (const StageResult& stage : engine_.results()) {
+    const auto peak = static_cast<std::int64_t>(stage.cost.peak_bytes);
+    timings.stages.push_back({stage.info.name, stage.info.instance, status_name(stage.status),
+                              stage.cost.wall_seconds, stage.cost.cpu_seconds, peak,
+                              progress_.begin_of(stage.info.label())});
+    timings.wall += stage.cost.wall_seconds;
+    timings.cpu += stage.cost.cpu_seconds;
+    timings.peak_memory = std::max(timings.peak_memory, peak);
+  }
+  return timings;
+}
+
 std::optional<StageResult> Session::failure() const {
   for (const StageResult& result : engine_.results())
     if (result.status == StageStatus::Failed) return result;

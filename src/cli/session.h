@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "pipeline/engine.h"
 #include "recipe/resolve.h"
+#include "report/timings.h"
 
 namespace skinforge {
 
@@ -39,6 +40,9 @@ class Session {
 
   /// Runs of this recipe that the cache knows, the last one first.
   std::vector<RunRecord> runs();
+
+  /// What each stage cost when it ran, which may have been in an earlier build.
+  Timings timings() const;
 
   /// The first stage that failed; none when all is well.
   std::optional<StageResult> failure() const;

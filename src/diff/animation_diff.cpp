@@ -84,6 +84,7 @@ ClipDiff compare_clip(const Character& a, const Character& b, const Clip& of_a, 
   diff.keys_b = key_count(of_b);
   Player player_a(a, of_a), player_b(b, of_b);
   double squares = 0;
+  std::vector<double> squares_of_vertex(same.vertices.size(), 0);
   std::size_t compared = 0;
   VertexId worst;
   for (const double time : compared_times(of_a, of_b)) {
@@ -94,6 +95,7 @@ ClipDiff compare_clip(const Character& a, const Character& b, const Clip& of_a, 
       const double square =
           (player_a.positions()[v] - player_b.positions()[same.vertices[v].index()]).squaredNorm();
       squares += square;
+      squares_of_vertex[v] = std::max(squares_of_vertex[v], square);
       ++compared;
       if (square <= diff.max) continue;
       diff.max = square;
@@ -102,6 +104,8 @@ ClipDiff compare_clip(const Character& a, const Character& b, const Clip& of_a, 
     }
     if (diagonal > 0) compare_joints(player_a, player_b, same, diagonal, diff);
   }
+  for (const double square : squares_of_vertex)
+    diff.vertex_max.push_back(diagonal > 0 ? static_cast<float>(std::sqrt(square) / diagonal) : 0.0F);
   diff.is_compared = compared > 0 || a.mesh.vertex_count() == 0;
   if (worst.is_valid()) diff.joint = heaviest_joint(a, worst);
   diff.max = diagonal > 0 ? std::sqrt(diff.max) / diagonal : 0;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "diff/animation_diff.h"
-#include "diff/correspondence.h"
 #include "diff/structure_diff.h"
 #include "diff/surface_diff.h"
 
@@ -48,8 +47,9 @@ const ClipDiff* CharacterDiff::worst_clip() const {
 
 CharacterDiff compare_characters(const Character& a, const Character& b, std::uint64_t bytes_a,
                                  std::uint64_t bytes_b) {
-  const Correspondence same = correspond(a, b);
   CharacterDiff diff;
+  diff.same = correspond(a, b);
+  const Correspondence& same = diff.same;
   diff.diagonal = a.mesh.diagonal();
   diff.structure = compare_structure(a, b, same);
   diff.structure.a = count(a, bytes_a);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "diff/correspondence.h"
 #include "model/character.h"
 
 /// What differs between two characters, A (the reference) and B. Lengths are shares of the diagonal of A's
@@ -45,17 +46,19 @@ struct ClipDiff {
   std::string clip;
   double duration_a = 0, duration_b = 0;  ///< seconds
   std::size_t keys_a = 0, keys_b = 0;
-  bool is_compared = true;     ///< false: A has vertices, and none of them has a counterpart in B
-  double max = 0;              ///< largest distance of a skinned vertex
-  double rms = 0;              ///< over all vertices and times
-  double time = 0;             ///< seconds, of the largest
-  std::string joint;           ///< heaviest of A at that vertex
-  double joint_max = 0;        ///< largest distance of a joint
-  double joint_angle_deg = 0;  ///< largest turn between corresponding joints, model space
+  bool is_compared = true;        ///< false: A has vertices, and none of them has a counterpart in B
+  double max = 0;                 ///< largest distance of a skinned vertex
+  double rms = 0;                 ///< over all vertices and times
+  double time = 0;                ///< seconds, of the largest
+  std::string joint;              ///< heaviest of A at that vertex
+  double joint_max = 0;           ///< largest distance of a joint
+  double joint_angle_deg = 0;     ///< largest turn between corresponding joints, model space
+  std::vector<float> vertex_max;  ///< per vertex of A, its largest distance; 0 without counterpart
 };
 
 struct CharacterDiff {
   double diagonal = 0;  ///< metres, of A
+  Correspondence same;
   StructureDiff structure;
   GeometryDiff geometry;
   SkinDiff skin;

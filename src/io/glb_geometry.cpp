@@ -55,12 +55,12 @@ class PrimitiveBuilder {
     const Vec3 normal = area_normal(mesh_, face).normalized();
     const float handedness = has_tangents_ ? uv_handedness(corner_uvs(begin, vertices.size())) : 1.0F;
     if (const SplitNormals* split = mesh_.split_of(face))
-      return add_halves(begin, positions, *split, handedness);
+      return add_halves(face, begin, positions, *split, handedness);
     std::vector<std::uint32_t> written;
     for (std::size_t i = 0; i < vertices.size(); ++i)
       written.push_back(vertex_of(
           vertices[i], attributes(begin + i, written_normal(mesh_.normals[begin + i], normal), handedness)));
-    add_polygon(positions, std::move(written));
+    add_polygon(face, positions, std::move(written));
   }
 
   GlbPrimitive finish(MaterialId material) const {
@@ -68,6 +68,7 @@ class PrimitiveBuilder {
     primitive.material = material;
     primitive.vertex = vertex_;
     primitive.indices = fans_.indices();
+    primitive.faces = faces_;
     for (const VertexId v : vertex_)
       for (const double x : mesh_.positions[v.index()]) primitive.positions.push_back(static_cast<float>(x));
     primitive.normals = columns(0, 3);
@@ -81,13 +82,14 @@ class PrimitiveBuilder {
   }
 
  private:
-  void add_polygon(std::span<const Vec3> positions, std::vector<std::uint32_t> written) {
+  void add_polygon(FaceId face, std::span<const Vec3> positions, std::vector<std::uint32_t> written) {
     fans_.add(positions, written);
+    faces_.resize(fans_.indices().size() / 3, face);
     polygons_.push_back(std::move(written));
   }
 
   /// A quad as the two triangles that it was in its file, with their own normals.
-  void add_halves(std::size_t begin, std::span<const Vec3> positions, const SplitNormals& split,
+  void add_halves(FaceId face, std::size_t begin, std::span<const Vec3> positions, const SplitNormals& split,
                   float handedness) {
     const std::array<std::array<std::size_t, 3>, 2> halves{{{0, 1, 2}, {0, 2, 3}}};
     const std::array<std::array<Vec3, 3>, 2> normals{
@@ -103,7 +105,7 @@ class PrimitiveBuilder {
             mesh_.corners[begin + corner],
             attributes(begin + corner, written_normal(normals[half][i], Vec3::Zero()), handedness)));
       }
-      add_polygon(corners, std::move(written));
+      add_polygon(face, corners, std::move(written));
     }
   }
 
@@ -177,6 +179,7 @@ class PrimitiveBuilder {
   std::vector<std::int32_t> first_of_;  ///< per vertex of the character, its first written vertex
   std::vector<std::int32_t> next_of_;   ///< per written vertex, the next one of the same vertex
   std::vector<std::vector<std::uint32_t>> polygons_;
+  std::vector<FaceId> faces_;  ///< per triangle
   FanWriter fans_;
 };
 

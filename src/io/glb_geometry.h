@@ -20,6 +20,7 @@ struct GlbPrimitive {
   std::vector<std::vector<float>> uvs;  ///< per set, 2 a vertex
   std::vector<float> colors;            ///< 4 a vertex, or empty
   std::vector<std::uint32_t> indices;   ///< triangles
+  std::vector<FaceId> faces;            ///< per triangle, the face of the character it is part of
 
   std::size_t vertex_count() const { return vertex.size(); }
 };

@@ -150,6 +150,16 @@ Bytes encode_png(const Raster& raster) {
   return bytes;
 }
 
+Bytes encode_jpeg(const Raster& raster, int quality) {
+  SF_EXPECT(raster.width > 0 && raster.height > 0 && quality >= 1 && quality <= 100);
+  SF_EXPECT(raster.rgba.size() == std::size_t{4} * raster.width * raster.height);
+  Bytes bytes;
+  const int done = stbi_write_jpg_to_func(append_bytes, &bytes, raster.width, raster.height, 4,
+                                          raster.rgba.data(), quality);
+  SF_EXPECT(done != 0);
+  return bytes;
+}
+
 Raster decode_image(const Image& image) {
   const ImageHeader header = inspect_image(image.bytes);
   if (image.bytes.size() > INT_MAX) bad("image of more than 2 GB");

@@ -292,6 +292,7 @@ void describe(const StageTiming& s, F& f) {
   f("wall", s.wall, "s", "Time from start to end");
   f("cpu", s.cpu, "s", "Processor time");
   f("peak_memory", s.peak_memory, "bytes", "Largest resident size of the process up to the stage's end");
+  f("begin", s.begin, "s", "When it began, from the start of the build; null when it did not run in it");
 }
 
 template <class F>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct StageTiming {
   double wall = 0;
   double cpu = 0;
   std::int64_t peak_memory = 0;
+  std::optional<double> begin;
 };
 
 struct Timings {

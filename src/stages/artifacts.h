@@ -51,6 +51,7 @@ struct ArtifactNames {
   std::string obj() const { return prefix + "obj"; }
   std::string validation() const { return prefix + "validation"; }
   std::string picture(const std::string& name) const { return prefix + "picture:" + name; }
+  std::string view() const { return prefix + "view"; }
   std::string preview_glb() const { return prefix + "preview_glb"; }
   std::string preview_report() const { return prefix + "preview_report"; }
   std::string report() const { return prefix + "report"; }

@@ -241,7 +241,9 @@ void add_report(const Recipe& recipe, const std::vector<ClipRequest>& clips, std
     if (clip.is_animated) engine.add(make_animated_stage(names, clip));
   }
   engine.add(make_report_stage(names, recipe, clips, issue_artifacts(recipe, engine, names)));
-  if (level == ReportLevel::Full) engine.add(make_pictures_stage(names, recipe, clips));
+  if (level != ReportLevel::Full) return;
+  engine.add(make_pictures_stage(names, recipe, clips));
+  engine.add(make_view_stage(names, recipe));
 }
 }  // namespace
 

@@ -112,6 +112,9 @@ StagePointer make_validate_stage(const ArtifactNames& names, const Recipe& recip
 StagePointer make_pictures_stage(const ArtifactNames& names, const Recipe& recipe,
                                  std::span<const ClipRequest> clips);
 
+/// result, surface, graft -> view: where each triangle of the GLB comes from, as JSON for the report's page.
+StagePointer make_view_stage(const ArtifactNames& names, const Recipe& recipe);
+
 /// character:*, placement, graft, joint_maps -> preview_glb, preview_report: the parts side by side.
 StagePointer make_preview_stage(const ArtifactNames& names, const Recipe& recipe,
                                 std::span<const ClipRequest> clips);

@@ -31,11 +31,12 @@ std::string read_text(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Relative name -> content of every file but the timings, which tell of this run.
+// Relative name -> content of every file but the timings and the page, which tell of this run.
 std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& item : fs::recursive_directory_iterator(folder))
-    if (item.is_regular_file() && item.path().filename() != "timings.json")
+    if (item.is_regular_file() && item.path().filename() != "timings.json" &&
+        item.path().filename() != "report.html")
       files[fs::relative(item.path(), folder)] = read_text(item.path());
   return files;
 }

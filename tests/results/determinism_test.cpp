@@ -15,11 +15,12 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::Program;
 
-// Relative name -> content of every file but the timings, which tell of this run.
+// Relative name -> content of every file but the timings and the page, which tell of this run.
 std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& item : fs::recursive_directory_iterator(folder)) {
-    if (!item.is_regular_file() || item.path().filename() == "timings.json") continue;
+    const fs::path name = item.path().filename();
+    if (!item.is_regular_file() || name == "timings.json" || name == "report.html") continue;
     std::ifstream file(item.path(), std::ios::binary);
     files[fs::relative(item.path(), folder)] = {std::istreambuf_iterator<char>(file), {}};
   }

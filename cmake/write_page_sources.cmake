@@ -1,0 +1,16 @@
+# cmake -DPAGE=<folder> -DOUTPUT=<file.cpp> -P write_page_sources.cmake: template, style and scripts as C++ strings.
+function(append_text name)
+  set(text "")
+  foreach(file IN LISTS ARGN)
+    file(READ "${file}" content)
+    string(APPEND text "${content}\n")
+  endforeach()
+  file(APPEND "${OUTPUT}" "const std::string_view ${name} = R\"skinforge(${text})skinforge\";\n")
+endfunction()
+
+file(GLOB scripts "${PAGE}/*.js")
+file(WRITE "${OUTPUT}" "#include \"html/page_sources.h\"\n\nnamespace skinforge {\n")
+append_text(kPageTemplate "${PAGE}/page.html")
+append_text(kPageStyle "${PAGE}/page.css")
+append_text(kPageScript ${scripts})
+file(APPEND "${OUTPUT}" "}  // namespace skinforge\n")
