@@ -75,6 +75,7 @@ void open_up(Json& schema) {
     const bool is_said = key == "description" || key == "default" || key == "examples" || key == "unit";
     (is_said ? said : rules)[key] = value;
   }
+  if (is_object) rules["properties"]["include"] = include_path();  // so that editors offer it
   said["anyOf"] = Json::array({std::move(rules), is_object ? included() : reference()});
   schema = std::move(said);
 }
