@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "cli/commands.h"
+#include "cli/event_stream.h"
 #include "cli/recipe_tasks.h"
 #include "cli/report_page.h"
 #include "cli/session.h"
@@ -91,7 +92,8 @@ void build_session(const CommandLine& line, Session& session, Outcome& outcome) 
     outcome.files = publish(session.engine(), files, outcome.folder, files_read(session.recipe()));
   }
   outcome.stages = session.engine().results();
-  if (is_ok && !line.preview) write_run_files(line, session, outcome);
+  session.note_usage();
+  if ((is_ok || has_failed_only_budgets(session)) && !line.preview) write_run_files(line, session, outcome);
   session.tell_trouble();
   if (const auto failure = session.failure()) {
     outcome.code = exit_code(failure);
@@ -100,13 +102,14 @@ void build_session(const CommandLine& line, Session& session, Outcome& outcome) 
   }
 }
 
-Outcome build_recipe(const CommandLine& line, const RecipeTask& task, Console& console, bool is_alone) {
+Outcome build_recipe(const CommandLine& line, const RecipeTask& task, Console& console, EventStream& events,
+                     bool is_alone) {
   Outcome outcome;
   outcome.recipe = task.recipe;
   outcome.variant = task.resolved.variant;
   try {
     if (task.code != ExitCode::Ok) throw Error(task.code, task.error);
-    Session session(line, task.resolved, console);
+    Session session(line, task.resolved, console, &events);
     outcome.name = session.recipe().name;
     outcome.folder = output_folder(line, session.recipe(), is_alone);
     build_session(line, session, outcome);
@@ -146,6 +149,7 @@ json to_json(const Outcome& outcome) {
                  {"name", outcome.name},
                  {"out", outcome.folder.string()},
                  {"exit_code", static_cast<int>(outcome.code)},
+                 {"id", rule_name(outcome.code)},
                  {"files", std::move(files)},
                  {"stages", to_json(outcome.stages)}};
   if (!outcome.error.empty()) result["error"] = outcome.error;
@@ -202,15 +206,21 @@ ExitCode build_command(const CommandLine& line, Console& console) {
   std::vector<Outcome> outcomes;
   std::vector<RecipeTask> tasks = recipe_tasks(line);
   const bool is_alone = line.recipes.size() == 1 && tasks.size() == 1 && line.shard.empty();
+  EventStream events(line.events);
+  events.build_started(tasks.size());
   for (const RecipeTask& task : tasks) {
+    events.recipe_started(task.recipe, task.resolved.variant);
     const auto begin = std::chrono::steady_clock::now();
-    outcomes.push_back(build_recipe(line, task, console, is_alone));
+    outcomes.push_back(build_recipe(line, task, console, events, is_alone));
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     outcomes.back().seconds = seconds.count();
+    events.recipe_finished(outcomes.back().name, outcomes.back().code, outcomes.back().error,
+                           seconds.count());
     tell(outcomes.back(), seconds.count(), console);
     if (outcomes.back().code != ExitCode::Ok && !line.keep_going) break;
   }
   const ExitCode code = overall(line, outcomes);
+  events.build_finished(code);
   write_for_ci(line, outcomes);
   if (line.json) {
     json list = json::array();

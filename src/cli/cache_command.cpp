@@ -6,11 +6,20 @@
 #include "cli/recipe_tasks.h"
 #include "cli/session.h"
 #include "pipeline/cache.h"
+#include "pipeline/cache_usage.h"
 
 namespace skinforge {
 using nlohmann::json;
 
 namespace {
+std::string text_of(const CacheUsage& usage) {
+  if (usage.hits + usage.runs == 0) return "";
+  return fmt::format(
+      "{} builds: {:.1f} % of {} stages came from the cache, which saved {:.1f} s; {:.1f} s were worked\n",
+      usage.builds, 100 * usage.hit_rate(), usage.hits + usage.runs, usage.saved_seconds,
+      usage.spent_seconds);
+}
+
 std::string text_of(const Cache::Stats& stats, const std::string& folder) {
   std::string text =
       fmt::format("{}: {} in {} entries and {} results ({} not referenced)\n", folder,
@@ -18,6 +27,15 @@ std::string text_of(const Cache::Stats& stats, const std::string& folder) {
   for (const auto& [stage, s] : stats.stages)
     text += fmt::format("{:>6}  {:<20} {:.2f} s\n", s.entries, stage, s.seconds);
   return text;
+}
+
+json to_json(const CacheUsage& usage) {
+  return {{"builds", usage.builds},
+          {"hits", usage.hits},
+          {"runs", usage.runs},
+          {"hit_rate", usage.hit_rate()},
+          {"saved_seconds", usage.saved_seconds},
+          {"spent_seconds", usage.spent_seconds}};
 }
 
 json to_json(const Cache::Stats& stats) {
@@ -43,7 +61,10 @@ std::string readable_size(std::uint64_t bytes) {
 ExitCode cache_stats_command(const CommandLine& line, Console&) {
   DiskStore store(line.cache);
   const Cache::Stats stats = Cache(store).stats();
-  print_data(line.json ? to_json(stats).dump(2) : text_of(stats, line.cache));
+  const CacheUsage usage = total_usage(store);
+  json document = to_json(stats);
+  document["usage"] = to_json(usage);
+  print_data(line.json ? document.dump(2) : text_of(stats, line.cache) + text_of(usage));
   return ExitCode::Ok;
 }
 

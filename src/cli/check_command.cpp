@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/recipe_tasks.h"
 #include "cli/session.h"
+#include "report/build_verdict.h"
 #include "stages/build.h"
 
 namespace skinforge {
@@ -46,6 +47,7 @@ ExitCode check_command(const CommandLine& line, Console& console) {
     if (code == ExitCode::Ok) console.info(task.label() + ": ok");
     if (worst == ExitCode::Ok) worst = code;
     result["exit_code"] = static_cast<int>(code);
+    result["id"] = rule_name(code);
     list.push_back(std::move(result));
   }
   if (line.json) {

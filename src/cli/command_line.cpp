@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/version.h"
+#include "cli/completion_text.h"
+#include "cli/help_topics.h"
 #include "stages/build.h"
 
 namespace skinforge {
@@ -37,8 +39,9 @@ class Parser {
     add_talk_flags(&app_);
     app_.footer(
         "Exit status: 0 ok, 1 a stage failed, 2 usage or recipe error, 3 input missing or corrupt,\n"
-        "4 validation failed, 6 some recipes failed (--keep-going), 70 internal error,\n"
-        "130/143 ended by a signal. Environment: SKINFORGE_CACHE, NO_COLOR, CLICOLOR_FORCE, CI.");
+        "4 validation failed, 5 models differ, 6 some recipes failed (--keep-going),\n"
+        "70 internal error, 130/143 ended by a signal. help status, environment, recipe, caching, ci says "
+        "more.");
     line_.jobs = std::max(1U, std::thread::hardware_concurrency());
     line_.cache = default_cache();
     add_recipe_verbs();
@@ -73,6 +76,7 @@ class Parser {
     if (!recipe_.empty()) line_.recipes = {recipe_};
     if (line_.verb == Verb::Help) line_.help = help_about(topic_);
     for (const std::string& text : raised_) set_limit(line_.limits, text);
+    if (line_.verb == Verb::Completion) line_.help = completion_script(shell_, verb_words(&app_, ""));
     line_.verbosity = quiet_ ? Verbosity::Quiet : verbose_ ? Verbosity::Verbose : Verbosity::Normal;
     return line_;
   }
@@ -100,14 +104,46 @@ class Parser {
       return "What inputs may ask for, as --limit NAME=VALUE changes it:\n" + limit_table();
     for (const CLI::App* verb : app_.get_subcommands(nullptr))
       if (verb->get_name() == topic) return help_of(verb);
-    throw Error(ExitCode::Usage, fmt::format("unknown command \"{}\"{}", printable(topic),
-                                             nearest_hint(topic, verb_names(&app_))));
+    if (const auto text = help_topic(topic)) return *text;
+    std::vector<std::string> known = verb_names(&app_), topics = help_topic_names();
+    known.insert(known.end(), topics.begin(), topics.end());
+    throw Error(ExitCode::Usage,
+                fmt::format("unknown command \"{}\"{}", printable(topic), nearest_hint(topic, known)));
   }
 
   static std::vector<std::string> verb_names(const CLI::App* app) {
     std::vector<std::string> names;
     for (const CLI::App* verb : app->get_subcommands(nullptr)) names.push_back(verb->get_name());
     return names;
+  }
+
+  // What shells need to know, of all verbs below `app`.
+  static std::vector<VerbWords> verb_words(const CLI::App* app, const std::string& prefix) {
+    std::vector<VerbWords> all;
+    for (const CLI::App* verb : app->get_subcommands(nullptr)) {
+      const std::string name = prefix + verb->get_name();
+      if (!verb->get_subcommands(nullptr).empty()) {
+        for (VerbWords& below : verb_words(verb, name + " ")) all.push_back(std::move(below));
+        continue;
+      }
+      VerbWords words{name, verb->get_description(), {}};
+      for (const CLI::Option* option : verb->get_options())
+        if (!option->get_positional() || !option->get_lnames().empty())
+          words.options.push_back(option_words(option));
+      all.push_back(std::move(words));
+    }
+    return all;
+  }
+
+  static VerbWords::Option option_words(const CLI::Option* option) {
+    VerbWords::Option words;
+    for (const std::string& name : option->get_lnames()) words.names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) words.names.push_back("-" + name);
+    words.what = option->get_description();
+    words.takes_value = option->get_items_expected_max() > 0;
+    if (const auto choices = choices_.find(words.names.front()); choices != choices_.end())
+      words.choices = choices->second;
+    return words;
   }
 
   static std::string names_below(const CLI::App* app) {
@@ -256,6 +292,9 @@ class Parser {
         ->add_flag("--retry-failed", line_.retry_failed,
                    "Run stages again that failed before with the same inputs and parameters")
         ->group("Recipes");
+    build->add_option("--events", line_.events, "Write what happens as it happens, one JSON object a line")
+        ->type_name("FILE")
+        ->group("CI");
     build->add_option("--junit", line_.junit, "Write the verdicts as JUnit XML")
         ->type_name("FILE")
         ->group("CI");
@@ -276,6 +315,16 @@ class Parser {
     add_recipes(plan);
     add_report_option(plan);
     add_work_options(plan);
+
+    CLI::App* graph = add_verb(&app_, "graph", "Print which stage needs which, as dot or JSON", Verb::Graph);
+    add_recipe(graph);
+    graph->add_option("--format", line_.format, "dot (for Graphviz) or json")
+        ->check(CLI::IsMember({"dot", "json"}).description(""))
+        ->type_name("FORMAT")
+        ->default_str("dot")
+        ->group("Output");
+    add_report_option(graph);
+    add_work_options(graph);
 
     CLI::App* expand =
         add_verb(&app_, "expand", "Print the recipe with everything settled, and where each value comes from",
@@ -481,21 +530,62 @@ class Parser {
     verify->add_option("--recipe", recipe_, "Recipe to compare with: what it asks for, and its files")
         ->type_name("RECIPE");
     add_choice_options(verify);
-    add_verb(&app_, "schema", "Print the JSON Schema of recipes or of reports", Verb::Schema)
-        ->add_option("OF", line_.schema, "recipe or report")
-        ->check(CLI::IsMember({"recipe", "report"}).description(""))
+    add_file_verbs();
+    add_cache_option(add_verb(&app_, "doctor", "Say whether all that builds need is there", Verb::Doctor));
+    add_verb(&app_, "completion", "Print a script by which a shell completes commands", Verb::Completion)
+        ->add_option("SHELL", shell_, "bash, zsh or fish")
+        ->required()
+        ->type_name("");
+    add_verb(&app_, "schema", "Print the JSON Schema of recipes, reports or events", Verb::Schema)
+        ->add_option("OF", line_.schema, "recipe, report or event")
+        ->check(CLI::IsMember({"recipe", "report", "event"}).description(""))
         ->default_str("recipe")
         ->type_name("");
     add_verb(&app_, "version", "Print the version", Verb::Version);
-    add_verb(&app_, "help", "Print this, or the help of one command", Verb::Help)
-        ->add_option("COMMAND", topic_, "A command")
+    add_verb(&app_, "help", "Print this, or the help of a command or topic", Verb::Help)
+        ->add_option("TOPIC", topic_, "A command, or one of: status, environment, recipe, caching, ci")
         ->type_name("");
+  }
+
+  void add_file_verbs() {
+    CLI::App* validate =
+        add_verb(&app_, "validate", "Check a glTF or GLB file against the rules of the format (status 4)",
+                 Verb::Validate);
+    validate->add_option("FILE", line_.file, "A .glb or .gltf")->required()->type_name("");
+    validate->add_flag("--strict", line_.strict, "Warnings count, too")->group("Verdict");
+    validate
+        ->add_flag("--own-rules", line_.without_khronos,
+                   "Do not ask the Khronos validator, even if it is there")
+        ->group("Verdict");
+    CLI::App* repair =
+        add_verb(&app_, "repair", "Write a model anew as a valid GLB, and say each thing that was repaired",
+                 Verb::Repair);
+    repair->add_option("FILE", line_.file, "Model: .glb, .gltf, .fbx, .dae, .obj, ...")
+        ->required()
+        ->type_name("");
+    repair->add_option("-o,--out", line_.out, "File to write")
+        ->type_name("FILE.glb")
+        ->default_str("FILE with the ending .repaired.glb")
+        ->group("Output");
+    repair->add_option("--influences", line_.influences, "Joints a vertex follows at most: 4 or 8")
+        ->check(CLI::IsMember(std::vector<std::size_t>{4, 8}).description(""))
+        ->type_name("N")
+        ->default_str("8 where the model has more than 4")
+        ->group("Output");
   }
 
   CLI::App app_{"Grafts parts of rigged, animated characters into one.", "skinforge"};
   CommandLine line_;
   std::map<const CLI::App*, Verb> verbs_;
+  /// Values that options take, for shells.
+  static inline const std::map<std::string, std::vector<std::string>> choices_ = {
+      {"--report", {"none", "json", "full"}},
+      {"--format", {"dot", "json"}},
+      {"--influences", {"4", "8"}},
+      {"--method", {"harmonic", "heat"}},
+      {"--kernel", {"linear", "gaussian"}}};
   std::string topic_;
+  std::string shell_;
   std::string recipe_;
   std::string report_ = "full";
   bool quiet_ = false;

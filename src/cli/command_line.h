@@ -21,6 +21,11 @@ enum class Verb {
   Inspect,
   Diff,
   Verify,
+  Validate,
+  Repair,
+  Graph,
+  Doctor,
+  Completion,
   Bind,
   Deform,
   CompareSkinning,
@@ -77,7 +82,7 @@ struct CommandLine {
   std::string shard;                      ///< "2/5"; empty: all
   std::string stage;                      ///< label; stage run, explain
   std::string against;                    ///< explain: id of a run; empty: the last, or the one before
-  std::string file;                       ///< inspect, bind, deform, compare-skinning
+  std::string file;  ///< inspect, verify, validate, repair, bind, deform, compare-skinning
   SkinningRequest skinning;
   DiffRequest diff;
   std::string out;    ///< empty: out/<name>
@@ -93,6 +98,11 @@ struct CommandLine {
   double max_size_gb = 0;             ///< cache gc; 0: any
   Limits limits;                      ///< --limit
   bool preview = false;               ///< build: parts side by side, at once
+  std::string events;                 ///< build: file for what happens; empty: none
+  bool strict = false;                ///< validate: warnings count, too
+  bool without_khronos = false;       ///< validate: own rules only
+  std::size_t influences = 0;         ///< repair: 4 or 8; 0: 8 where the model has more than 4
+  std::string format = "dot";         ///< graph: or "json"
   std::string help;                   ///< text for Verb::Help
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "cli/event_stream.h"
 
 namespace skinforge {
 
@@ -17,6 +18,7 @@ void Progress::on_start(const StageInfo& info) {
   running_.insert(info.label());
   const std::chrono::duration<double> begin = std::chrono::steady_clock::now() - start_;
   begins_[info.label()] = begin.count();
+  if (events_) events_->stage_started(info);
   draw();
 }
 
@@ -28,6 +30,8 @@ std::optional<double> Progress::begin_of(const std::string& label) const {
 void Progress::on_finish(const StageResult& result) {
   ++done_;
   running_.erase(result.info.label());
+  expected_.erase(result.info.label());
+  if (events_) events_->stage_finished(result);
   const std::string label = printable(result.info.label());
   for (const Issue& issue : result.issues) console_.issue(issue);
   const std::string line = fmt::format("{} ({:.2f} s, {})", label, result.cost.wall_seconds, result.reason);
@@ -44,9 +48,16 @@ void Progress::draw() {
   if (running_.empty()) return;  // hits are too quick to show
   const std::size_t total = std::max({total_, done_, std::size_t{1}});
   const std::size_t filled = kBarWidth * done_ / total;
-  console_.status(fmt::format("[{}{}] {}/{} {}", std::string(filled, '#'),
-                              std::string(kBarWidth - filled, '.'), done_, total,
+  console_.status(fmt::format("[{}{}] {}/{}{} {}", std::string(filled, '#'),
+                              std::string(kBarWidth - filled, '.'), done_, total, time_left(),
                               printable(*running_.begin()).substr(0, kNameWidth)));
+}
+
+// Of stages that took long enough to be counted when they last ran; nothing where that is unknown.
+std::string Progress::time_left() const {
+  double left = 0;
+  for (const auto& [label, seconds] : expected_) left += seconds;
+  return left < 1 ? "" : fmt::format(", about {:.0f} s", left);
 }
 
 }  // namespace skinforge

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "io/sandbox.h"
+#include "report/build_verdict.h"
 
 namespace skinforge {
 
@@ -52,6 +53,11 @@ Command command_of(Verb verb) {
                                                     {Verb::Inspect, inspect_command},
                                                     {Verb::Diff, diff_command},
                                                     {Verb::Verify, verify_command},
+                                                    {Verb::Validate, validate_command},
+                                                    {Verb::Repair, repair_command},
+                                                    {Verb::Graph, graph_command},
+                                                    {Verb::Doctor, doctor_command},
+                                                    {Verb::Completion, help_command},
                                                     {Verb::Bind, bind_command},
                                                     {Verb::Deform, deform_command},
                                                     {Verb::CompareSkinning, compare_skinning_command},
@@ -74,7 +80,7 @@ Command command_of(Verb verb) {
 int end_with_error(ExitCode code, const std::string& message, bool wants_json) {
   Console(Verbosity::Normal).error(printable(message));
   const int status = static_cast<int>(code);
-  const nlohmann::json document = {{"error", message}, {"exit_code", status}};
+  const nlohmann::json document = {{"error", message}, {"exit_code", status}, {"id", rule_name(code)}};
   try {
     if (wants_json) print_data(document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } catch (const Error&) {

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "cli/build_id.h"
+#include "pipeline/cache_usage.h"
 #include "recipe/recipe_files.h"
 #include "stages/build.h"
 #include "stages/stage_settings.h"
@@ -46,14 +47,14 @@ const char* status_name(StageStatus status) {
   return "";
 }
 
-Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console& console)
+Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console& console, EventStream* events)
     : line_(line),
       console_(console),
       recipe_(read_resolved(recipe)),
       name_(session_name(recipe)),
       store_(line.cache),
       cache_(store_),
-      progress_(console),
+      progress_(console, events),
       engine_(cache_, {.jobs = line.jobs,
                        .build = build_id(),
                        .session = name_,
@@ -63,6 +64,7 @@ Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console&
                        .settings = recipe_settings(recipe_),
                        .reads_setting = reads_setting}) {
   set_thread_limit(line.jobs);
+  if (console.has_status_line()) progress_.expect(last_seconds());
   expect_inputs_under(line.inputs_under);
 }
 
@@ -127,6 +129,24 @@ std::vector<RunRecord> Session::runs() {
   if (RunRecord last = cache_.last_run(name_); !last.stages.empty())
     runs.insert(runs.begin(), std::move(last));
   return runs;
+}
+
+std::map<std::string, double> Session::last_seconds() {
+  std::map<std::string, double> seconds;
+  for (const auto& [label, stage] : cache_.last_run(name_).stages)
+    if (const auto manifest = cache_.peek(stage.key)) seconds[label] = manifest->cost.wall_seconds;
+  return seconds;
+}
+
+void Session::note_usage() {
+  CacheUsage usage{.builds = 1};
+  for (const StageResult& stage : engine_.results()) {
+    if (stage.status == StageStatus::Skipped) continue;
+    const bool is_hit = stage.status == StageStatus::Hit;
+    ++(is_hit ? usage.hits : usage.runs);
+    (is_hit ? usage.saved_seconds : usage.spent_seconds) += stage.cost.wall_seconds;
+  }
+  skinforge::note_usage(store_, name_, usage);
 }
 
 Timings Session::timings() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -17,9 +18,10 @@ namespace skinforge {
 /// One recipe on its way through an engine, with cache and progress as the command line wants them.
 class Session {
  public:
-  /// Reads the recipe. Throws Error like `load_recipe`.
+  /// Reads the recipe. `events` may be null. Throws Error like `load_recipe`.
   /// Throws Error (Usage) also for an input that --inputs-under forbids; nothing has been read of it then.
-  Session(const CommandLine& line, const ResolvedRecipe& recipe, Console& console);
+  Session(const CommandLine& line, const ResolvedRecipe& recipe, Console& console,
+          EventStream* events = nullptr);
 
   const Recipe& recipe() const { return recipe_; }
   Engine& engine() { return engine_; }
@@ -40,6 +42,12 @@ class Session {
 
   /// Runs of this recipe that the cache knows, the last one first.
   std::vector<RunRecord> runs();
+
+  /// Seconds that stages took in the last run of this recipe, by label; those whose record is lost are left
+  /// out.
+  std::map<std::string, double> last_seconds();
+  /// Adds this build to what the cache knows of its use.
+  void note_usage();
 
   /// What each stage cost when it ran, which may have been in an earlier build.
   Timings timings() const;

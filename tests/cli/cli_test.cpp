@@ -73,8 +73,9 @@ TEST_F(Cli, SchemaOfReports) {
 TEST_F(Cli, HelpNamesEveryVerb) {
   const ProgramResult result = call({"help"});
   EXPECT_EQ(result.status, 0);
-  for (const char* verb : {"build", "check", "plan", "explain", "expand", "diff", "stage", "cache", "inspect",
-                           "schema", "version", "help"}) {
+  for (const char* verb :
+       {"build", "check", "plan", "explain", "expand", "diff", "stage", "cache", "inspect", "validate",
+        "repair", "graph", "doctor", "completion", "schema", "version", "help"}) {
     EXPECT_THAT(result.out, HasSubstr(std::string("\n  ") + verb + " "));
     const ProgramResult about = call({"help", verb});
     EXPECT_EQ(about.status, 0);

@@ -1,0 +1,241 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "testing/assets.h"
+#include "testing/program.h"
+#include "testing/temporary_folder.h"
+
+// Goals of the build tool about files: valid output (10), a complete ledger (11), faults told (15).
+namespace skinforge {
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::Program;
+using testing::ProgramResult;
+
+class GoalsOfFiles : public ::testing::Test {
+ protected:
+  ProgramResult call(const std::vector<std::string>& arguments) const {
+    return Program(SKINFORGE_BINARY, arguments, folder.path()).finish();
+  }
+  json answer(std::vector<std::string> arguments, int status = 0) const {
+    arguments.emplace_back("--json");
+    const ProgramResult result = call(arguments);
+    EXPECT_EQ(result.status, status) << result.err;
+    return json::parse(result.out, nullptr, false);
+  }
+
+  testing::TemporaryFolder folder;
+};
+
+std::vector<fs::path> shared_models() {
+  std::vector<fs::path> models;
+  for (const auto& item :
+       fs::recursive_directory_iterator(fs::absolute(testing::shared_folder() / "assets"))) {
+    const std::string ending = item.path().extension();
+    if (ending == ".glb" || ending == ".gltf" || ending == ".fbx") models.push_back(item.path());
+  }
+  std::sort(models.begin(), models.end());
+  return models;
+}
+
+// Every model comes out without error and warning, whatever it went in with, and each repair is said.
+TEST_F(GoalsOfFiles, Goal10EveryModelComesOutValid) {
+  SKINFORGE_NEEDS_SHARED();
+  std::size_t broken = 0;
+  for (const fs::path& model : shared_models()) {
+    const json repaired = answer({"repair", model, "-o", "out.glb"});
+    ASSERT_EQ(repaired.at("exit_code"), 0) << model;
+    const json after = answer({"validate", "out.glb", "--strict"});
+    EXPECT_THAT(after.at("findings"), IsEmpty()) << model << after;
+    if (model.extension() == ".fbx") continue;
+    const json before = json::parse(call({"validate", model, "--json"}).out);
+    const bool is_clean = before.at("errors") == 0 && before.at("warnings") == 0;
+    broken += !is_clean;
+    EXPECT_TRUE(is_clean || !repaired.at("repairs").empty()) << model << before;
+  }
+  EXPECT_GE(broken, 3U);  // the material has some
+}
+
+// Our rules say nothing that the Khronos validator does not say of the same place.
+TEST_F(GoalsOfFiles, Goal10OwnRulesAgreeWithTheKhronosValidator) {
+  SKINFORGE_NEEDS_SHARED();
+  for (const fs::path& model : shared_models()) {
+    if (model.extension() == ".fbx") continue;
+    const json own = json::parse(call({"validate", model, "--own-rules", "--json"}).out);
+    const json both = json::parse(call({"validate", model, "--json"}).out);
+    if (both.at("khronos_validator") != "ran")
+      GTEST_SKIP()
+          << "KHRONOS VALIDATOR ABSENT: npm install gltf-validator into build/node, or set NODE_PATH";
+    std::set<std::string> own_codes, all_codes;
+    for (const json& finding : own.at("findings")) own_codes.insert(finding.at("code"));
+    for (const json& finding : both.at("findings")) all_codes.insert(finding.at("code"));
+    EXPECT_EQ(own_codes, all_codes) << model;
+  }
+}
+
+TEST_F(GoalsOfFiles, Goal10RepairDoesNotTouchItsInput) {
+  fs::copy_file(testing::repository_file("data/human.glb"), folder / "human.glb");
+  EXPECT_EQ(call({"repair", "human.glb", "-o", "human.glb"}).status, 2);
+  EXPECT_EQ(fs::file_size(folder / "human.glb"), fs::file_size(testing::repository_file("data/human.glb")));
+  EXPECT_EQ(call({"repair", "human.glb"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder / "human.repaired.glb"));
+}
+
+// Each clip, joint, material and image of each input stands in the ledger once.
+TEST_F(GoalsOfFiles, Goal11TheLedgerIsComplete) {
+  const std::string recipe = testing::repository_file("recipes/centaur.json");
+  ASSERT_EQ(call({"build", recipe, "--out", "out", "--cache", "cache", "--report", "json"}).status, 0);
+  const json report = json::parse(std::ifstream(folder / "out/report.json"));
+  for (const json& input : report.at("inputs")) {
+    std::map<std::string, std::set<std::string>> items;
+    std::map<std::string, std::int64_t> counts;
+    for (const json& entry : report.at("ledger")) {
+      if (entry.at("input") != input.at("name")) continue;
+      ++counts[entry.at("kind")];
+      EXPECT_TRUE(items[entry.at("kind")].insert(entry.at("item")).second) << entry;
+      const bool is_dropped = entry.at("state") == "dropped";
+      EXPECT_TRUE(!is_dropped || entry.at("reason") != "") << entry;
+      EXPECT_TRUE(!is_dropped || entry.at("kind") != "clip") << entry;
+    }
+    EXPECT_EQ(counts["clip"], input.at("clips"));
+    EXPECT_EQ(counts["joint"], input.at("joints"));
+    EXPECT_EQ(counts["material"], input.at("materials"));
+    EXPECT_EQ(counts["image"], input.at("images"));
+    const fs::path model = fs::path(recipe).parent_path() / "../data" / input.at("file").get<std::string>();
+    for (const json& clip : answer({"inspect", model}).at("clips"))
+      EXPECT_TRUE(items["clip"].contains(clip.at("name"))) << clip;
+  }
+}
+
+// One thing that is wrong with a recipe or a file.
+struct Fault {
+  std::string name;
+  std::function<void(json& recipe)> change;
+  int status = 2;
+  std::string cause;  // what the message must say
+};
+
+std::vector<Fault> recipe_faults() {
+  const auto op = [](json& recipe) -> json& { return recipe.at("ops").at(0); };
+  return {
+      {"unknown key", [](json& r) { r["inputz"] = 1; }, 2, "nearest: \"inputs\""},
+      {"no version", [](json& r) { r.erase("recipe_version"); }, 2, "missing key \"recipe_version\""},
+      {"future version", [](json& r) { r["recipe_version"] = 2; }, 2, "expected recipe version 1"},
+      {"no name", [](json& r) { r.erase("name"); }, 2, "name"},
+      {"name with a slash", [](json& r) { r["name"] = "a/b"; }, 2, "cannot be a file name"},
+      {"name of a wrong kind", [](json& r) { r["name"] = 3; }, 2, "expected a string"},
+      {"no inputs", [](json& r) { r["inputs"] = json::object(); }, 2, "at least one input"},
+      {"base unknown", [](json& r) { r["base"] = "humen"; }, 2, "nearest: \"human\""},
+      {"from unknown", [&](json& r) { op(r)["from"] = "grifin"; }, 2, "nearest: \"griffin\""},
+      {"op unknown", [&](json& r) { op(r)["op"] = "replce"; }, 2, "replace"},
+      {"at missing", [&](json& r) { op(r).erase("at"); }, 2, "at"},
+      {"at empty", [&](json& r) { op(r)["at"] = json::array(); }, 2, "at least one joint"},
+      {"at twice",
+       [&](json& r) {
+         op(r)["at"] = {"Hips", "Hips"};
+       },
+       2, "listed twice"},
+      {"scale 0", [&](json& r) { op(r)["place"]["scale"] = 0; }, 2, "above 0"},
+      {"scale of a wrong kind", [&](json& r) { op(r)["place"]["scale"] = "big"; }, 2, "expected"},
+      {"offset of two",
+       [&](json& r) {
+         op(r)["place"]["offset"] = {1, 2};
+       },
+       2, "three numbers"},
+      {"blend unknown", [&](json& r) { op(r)["blend"] = "smoth"; }, 2, "smin"},
+      {"radius of paper",
+       [&](json& r) {
+         op(r)["blend"] = {{"operator", "paper"}, {"radius", 1}};
+       },
+       2, "fillet"},
+      {"hardness above 1",
+       [](json& r) {
+         r["surface"] = {{"hardness", 3}};
+       },
+       2, "0.9"},
+      {"two voxel sizes",
+       [](json& r) {
+         r["surface"] = {{"voxel", 1}, {"voxel_factor", 1}};
+       },
+       2, "one of"},
+      {"rate 0",
+       [](json& r) {
+         r["animation"] = {{"rate_hz", 0}};
+       },
+       2, "240"},
+      {"clip unknown",
+       [](json& r) {
+         r["animation"] = {{"clips", {"Wolk"}}};
+       },
+       2, "nearest: \"Walk\""},
+      {"five influences",
+       [](json& r) {
+         r["output"] = {{"influences", 5}};
+       },
+       2, "4 or 8"},
+      {"output outside",
+       [](json& r) {
+         r["output"] = {{"glb", "../x.glb"}};
+       },
+       2, "inside the output folder"},
+      {"output of another kind",
+       [](json& r) {
+         r["output"] = {{"glb", "x.fbx"}};
+       },
+       2, "must end in .glb"},
+      {"absolute path", [](json& r) { r["inputs"]["human"] = "/human.glb"; }, 2, "relative"},
+      {"an address", [](json& r) { r["inputs"]["human"] = "http://x/human.glb"; }, 2, "address"},
+      {"no such file", [](json& r) { r["inputs"]["human"] = "humon.glb"; }, 3, "no such file"},
+      {"joint unknown", [&](json& r) { op(r)["joint"] = "Tial1"; }, 2, "no joint"},
+      {"truncated GLB", [](json& r) { r["inputs"]["human"] = "short.glb"; }, 3, "file has 20000"},
+      {"text as GLB", [](json& r) { r["inputs"]["human"] = "text.glb"; }, 3, "text.glb"},
+      {"empty range",
+       [](json& r) {
+         r["expect"] = {{"joints", {{"min", 9}, {"max", 3}}}};
+       },
+       2, "above"},
+  };
+}
+
+// Thirty faults: each has its status, its id, one line with the place, and the cause.
+TEST_F(GoalsOfFiles, Goal15ThirtyFaultsAreTold) {
+  const json good = [&] {
+    json recipe = json::parse(std::ifstream(testing::repository_file("recipes/tail.json")));
+    for (auto& [name, file] : recipe.at("inputs").items()) {
+      fs::copy_file(fs::path(testing::repository_file("recipes")) / file.get<std::string>(),
+                    folder / (name + ".glb"));
+      file = name + ".glb";
+    }
+    return recipe;
+  }();
+  fs::copy_file(folder / "human.glb", folder / "short.glb");
+  fs::resize_file(folder / "short.glb", 20000);
+  std::ofstream(folder / "text.glb") << "no model";
+  const auto faults = recipe_faults();
+  EXPECT_GE(faults.size(), 30U);
+  for (const Fault& fault : faults) {
+    json recipe = good;
+    fault.change(recipe);
+    std::ofstream(folder / "bad.json") << recipe.dump(1);
+    const ProgramResult result = call({"check", "bad.json", "--cache", "cache", "--json"});
+    EXPECT_EQ(result.status, fault.status) << fault.name << result.err;
+    const json told = json::parse(result.out).at("recipes").at(0);
+    EXPECT_EQ(told.value("id", ""), fault.status == 2 ? "recipe" : "bad-input") << fault.name << told;
+    const std::string error = told.value("error", "");
+    EXPECT_THAT(error, HasSubstr(fault.cause)) << fault.name;
+    EXPECT_THAT(error, ContainsRegex("bad\\.json:[0-9]+:[0-9]+: ")) << fault.name;
+    EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 0) << fault.name;
+  }
+}
+
+}  // namespace
+}  // namespace skinforge
