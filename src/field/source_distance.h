@@ -17,12 +17,10 @@ struct SourceSamples {
 
 /// Samples delta_k and p_k of SkinMixer Sec. 6.1. The sign is negative where the winding number is above 1/2;
 /// the presence is linear in the triangle of the nearest point. `triangles` are those `bvh` was built from,
-/// `presence` has one value per position. Farther than `band` (metres, positive) the presence is that of a
-/// point near the nearest one: the nearest to the centre of a block of at most 16^3 lattice points. A source
-/// without triangles is `band` away with presence 0. Blocks of points answer for their points where they can:
-/// about 0.5 us a point on one core against 4k triangles. Same bits for any number of threads. Departure: the
-/// paper only says "sampled"; a point within half the distance of a place whose winding number is clearly 0
-/// or 1 takes its side, all others ask for their own.
+/// `presence` has one value per position. A source without triangles is `band` away (metres, positive) with
+/// presence 0. Departure: the paper only says "sampled". Here points within 4 voxels of the surface, 8 inside
+/// of it, ask for themselves; others lie between the corners of larger cubes (source_distance.md). About 0.3
+/// us a point on one core against 4k triangles. Same bits for any number of threads.
 SourceSamples sample_source(const Lattice& lattice, const TriangleBvh& bvh,
                             std::span<const std::array<std::int32_t, 3>> triangles,
                             std::span<const double> presence, double band);

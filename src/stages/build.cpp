@@ -277,6 +277,8 @@ void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const A
   engine.add(make_map_joints_stage(names, recipe));
   engine.add(make_select_stage(names, recipe));
   for (std::size_t k = 0; k < recipe.operations.size(); ++k) engine.add(make_field_stage(names, recipe, k));
+  for (std::size_t k = 0; k < recipe.operations.size() && !recipe.output.vdb.empty(); ++k)
+    engine.add(make_vdb_stage(names, k));
   engine.add(make_junction_stage(names, recipe));
   engine.add(make_bind_stage(names, recipe));
   engine.add(make_texture_stage(names, recipe));

@@ -11,7 +11,7 @@
 namespace skinforge {
 namespace {
 
-/// delta_R of one operation (Sec. 6.1), and the same as a file that other tools open.
+/// delta_R of one operation (Sec. 6.1).
 class Field final : public Stage {
  public:
   Field(ArtifactNames names, const Recipe& recipe, std::size_t site)
@@ -22,7 +22,7 @@ class Field final : public Stage {
             .instance = std::to_string(site_ + 1),
             .version = 3,
             .reads = {names_.graft(), names_.placed(), names_.selection(), names_.groups()},
-            .writes = {names_.field(site_), names_.vdb(site_)}};
+            .writes = {names_.field(site_)}};
   }
   void add_to_key(Hasher& key) const override {
     key.add_value("site", site_);
@@ -38,7 +38,6 @@ class Field final : public Stage {
                       in.get<std::vector<SourceSelection>>(names_.selection()));
       if (solids.can_blend()) field = build_site_field(solids.solids, options_for(solids.solids));
     }
-    out.put(names_.vdb(site_), field.is_empty() ? Bytes() : to_vdb(field.distance));
     out.put(names_.field(site_), std::move(field));
   }
 
@@ -61,10 +60,38 @@ class Field final : public Stage {
   FieldOptions options_;
 };
 
+/// The field of one operation as a file that other tools open; no bytes where there is none.
+class VdbFile final : public Stage {
+ public:
+  VdbFile(ArtifactNames names, std::size_t site) : names_(std::move(names)), site_(site) {}
+
+  StageInfo info() const override {
+    return {.name = "vdb",
+            .instance = std::to_string(site_ + 1),
+            .version = 1,
+            .reads = {names_.field(site_)},
+            .writes = {names_.vdb(site_)}};
+  }
+  void add_to_key(Hasher&) const override {}
+
+  void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
+    const auto& field = in.get<SiteField>(names_.field(site_));
+    out.put(names_.vdb(site_), field.is_empty() ? Bytes() : to_vdb(field.distance));
+  }
+
+ private:
+  ArtifactNames names_;
+  std::size_t site_;
+};
+
 }  // namespace
 
 StagePointer make_field_stage(const ArtifactNames& names, const Recipe& recipe, std::size_t site) {
   return std::make_unique<Field>(names, recipe, site);
+}
+
+StagePointer make_vdb_stage(const ArtifactNames& names, std::size_t site) {
+  return std::make_unique<VdbFile>(names, site);
 }
 
 }  // namespace skinforge

@@ -63,8 +63,11 @@ StagePointer make_map_joints_stage(const ArtifactNames& names, const Recipe& rec
 /// character:*, placement, graft -> placed meshes, selection (Sec. 6).
 StagePointer make_select_stage(const ArtifactNames& names, const Recipe& recipe);
 
-/// placed, selection, graft -> field:<site>, vdb:<site> (Sec. 6.1).
+/// placed, selection, graft -> field:<site> (Sec. 6.1).
 StagePointer make_field_stage(const ArtifactNames& names, const Recipe& recipe, std::size_t site);
+
+/// field:<site> -> vdb:<site>.
+StagePointer make_vdb_stage(const ArtifactNames& names, std::size_t site);
 
 /// placed, selection, graft, field:* -> surface (Sec. 6.1).
 StagePointer make_junction_stage(const ArtifactNames& names, const Recipe& recipe);

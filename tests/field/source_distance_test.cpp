@@ -63,6 +63,51 @@ TEST(SampleSource, MatchesQueriesOfEveryPoint) {
       }
 }
 
+// Beyond a few voxels from the surface the corners of larger cubes tell: outside of a ball the distance is
+// off by at most a sixth of a voxel at 4 voxels and 1/(4 * 12) of 4^2 voxels at 12 (the error of a line
+// between two points of a cone), inside by more where directions turn around, but only farther than 8 voxels
+// from it.
+TEST(SampleSource, FarFromTheSurfaceItIsNearlyExact) {
+  const Soup ball = testing::sphere_soup(40);
+  const TriangleBvh bvh(ball.positions, ball.triangles);
+  const Lattice lattice = testing::centred_lattice(81, 2.4);
+  const SourceSamples samples = sample_source(lattice, bvh, ball.triangles, ramp(ball), 30 * lattice.voxel);
+  double near = 0, outside = 0, inside = 0;  // largest errors, voxels
+  for (int k = 0; k < 81; k += 3)
+    for (int j = 0; j < 81; ++j)
+      for (int i = 0; i < 81; ++i) {
+        const Vec3 p = lattice.point(i, j, k);
+        const double distance = bvh.closest(p).distance / lattice.voxel;
+        const double found = samples.distance[lattice.index(i, j, k)] / lattice.voxel;
+        const double error = std::abs(std::abs(found) - std::min(distance, 30.0));
+        double& largest = distance < 4 ? near : (p.norm() > 1 ? outside : inside);
+        largest = std::max(largest, error);
+        if (p.norm() < 1 && distance < 8) near = std::max(near, error);
+      }
+  EXPECT_LT(near, 1e-4);
+  EXPECT_LT(outside, 0.34);
+  EXPECT_LT(inside, 2.0);
+}
+
+// Law: a mirrored solid has mirrored samples.
+TEST(SampleSource, MirroredSolidsHaveMirroredSamples) {
+  Soup shape = testing::torus_knot_soup(40, 8);
+  Soup mirrored = shape;
+  for (Vec3& p : mirrored.positions) p.x() = -p.x();
+  for (auto& t : mirrored.triangles) std::swap(t[1], t[2]);
+  const Lattice lattice{.origin = Vec3(-3, -3, -2), .voxel = 0.125, .size = {49, 49, 33}};
+  const std::vector<double> presence(shape.positions.size(), 0.5);
+  const SourceSamples one = sample_source(lattice, TriangleBvh(shape.positions, shape.triangles),
+                                          shape.triangles, presence, 30 * lattice.voxel);
+  const SourceSamples other = sample_source(lattice, TriangleBvh(mirrored.positions, mirrored.triangles),
+                                            mirrored.triangles, presence, 30 * lattice.voxel);
+  for (int k = 0; k < 33; ++k)
+    for (int j = 0; j < 49; ++j)
+      for (int i = 0; i < 49; ++i)
+        ASSERT_NEAR(one.distance[lattice.index(i, j, k)], other.distance[lattice.index(48 - i, j, k)],
+                    kFloat);
+}
+
 // A sphere with a hole in its top: still a solid whose lid is where the winding number passes one half.
 TEST(SampleSource, OpenMeshKeepsItsInside) {
   Soup sphere = testing::sphere_soup(16);

@@ -133,7 +133,7 @@ std::vector<Flip> flips() {
       {"/correctives/enough", "/correctives/enough", 0.5, true},
       {"/output/glb", "/output/glb", "other.glb"},
       {"/output/obj", "/output/obj", "other.obj"},
-      {"/output/vdb", "/output/vdb", "other.vdb"},
+      {"/output/vdb", "/output/vdb", "other.vdb", false, {"vdb"}},
       {"/output/influences", "/output/influences", 8},
       {"/output/influences", "/output/influences", 8, true},
       {"/expect/triangles", "/expect/triangles", 8999},
