@@ -7,6 +7,7 @@ find_package(TBB CONFIG REQUIRED)  # before OpenVDB, or its own FindTBB is taken
 find_package(OpenVDB REQUIRED COMPONENTS openvdb)
 find_package(OpenMesh CONFIG REQUIRED)
 find_package(assimp CONFIG REQUIRED)
+find_package(PNG REQUIRED)
 find_package(nlohmann_json CONFIG REQUIRED)
 find_package(yaml-cpp CONFIG REQUIRED)
 find_package(spdlog CONFIG REQUIRED)

@@ -32,6 +32,7 @@ ALLOWED["cli"] = set(ALLOWED)
 # Third-party headers that must stay inside their layer.
 CONFINED = {
     r"assimp/": {"io"},
+    r"png": {"io"},
     r"stb_": {"io"},
     r"openvdb/": {"field"},
     r"OpenMesh/": {"geometry", "surface"},

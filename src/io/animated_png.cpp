@@ -47,6 +47,7 @@ Bytes encode_animated_png(std::span<const Raster> frames, double seconds_per_fra
   for (std::size_t f = 0; f < frames.size(); ++f) {
     SF_EXPECT(frames[f].width == frames[0].width && frames[f].height == frames[0].height);
     const Bytes png = encode_png(frames[f]);
+    Bytes pixels;  // of all its data chunks
     for (const PngChunk& chunk : png_chunks(png)) {
       if (f == 0 && chunk.kind == "IHDR") {
         append(animated, std::span(png).first(kPngSignatureSize));
@@ -56,13 +57,13 @@ Bytes encode_animated_png(std::span<const Raster> frames, double seconds_per_fra
         append_number(control, 0, 4);  // for ever
         append_chunk(animated, "acTL", control);
       }
-      if (chunk.kind != "IDAT") continue;
-      append_chunk(animated, "fcTL", frame_control(sequence++, frames[f], seconds_per_frame));
-      Bytes data;
-      if (f > 0) append_number(data, sequence++, 4);
-      append(data, chunk.data);
-      append_chunk(animated, f == 0 ? "IDAT" : "fdAT", data);
+      if (chunk.kind == "IDAT") append(pixels, chunk.data);
     }
+    append_chunk(animated, "fcTL", frame_control(sequence++, frames[f], seconds_per_frame));
+    Bytes data;
+    if (f > 0) append_number(data, sequence++, 4);
+    append(data, pixels);
+    append_chunk(animated, f == 0 ? "IDAT" : "fdAT", data);
   }
   append_chunk(animated, "IEND", {});
   return animated;

@@ -113,21 +113,6 @@ void append_bytes(void* context, void* data, int size) {
   bytes.insert(bytes.end(), begin, begin + size);
 }
 
-bool is_opaque(const Raster& raster) {
-  for (std::size_t i = 3; i < raster.rgba.size(); i += 4)
-    if (raster.rgba[i] != 255) return false;
-  return true;
-}
-
-std::vector<std::uint8_t> without_alpha(const Raster& raster) {
-  std::vector<std::uint8_t> rgb;
-  rgb.reserve(raster.rgba.size() / 4 * 3);
-  for (std::size_t i = 0; i < raster.rgba.size(); i += 4)
-    rgb.insert(rgb.end(), raster.rgba.begin() + static_cast<std::ptrdiff_t>(i),
-               raster.rgba.begin() + static_cast<std::ptrdiff_t>(i + 3));
-  return rgb;
-}
-
 }  // namespace
 
 ImageHeader inspect_image(ByteSpan bytes) {
@@ -135,19 +120,6 @@ ImageHeader inspect_image(ByteSpan bytes) {
   if (text.starts_with(kPngSignature)) return inspect_png(bytes);
   if (text.starts_with("\xFF\xD8\xFF")) return inspect_jpeg(bytes);
   bad("image is neither PNG nor JPEG");
-}
-
-Bytes encode_png(const Raster& raster) {
-  SF_EXPECT(raster.width > 0 && raster.height > 0);
-  SF_EXPECT(raster.rgba.size() == std::size_t{4} * raster.width * raster.height);
-  const bool opaque = is_opaque(raster);
-  const std::vector<std::uint8_t> pixels = opaque ? without_alpha(raster) : raster.rgba;
-  const int channels = opaque ? 3 : 4;
-  Bytes bytes;
-  const int done = stbi_write_png_to_func(append_bytes, &bytes, raster.width, raster.height, channels,
-                                          pixels.data(), channels * raster.width);
-  SF_EXPECT(done != 0);
-  return bytes;
 }
 
 Bytes encode_jpeg(const Raster& raster, int quality) {

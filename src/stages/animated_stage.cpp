@@ -22,7 +22,7 @@ class Animated final : public Stage {
   StageInfo info() const override {
     return {.name = "animated",
             .instance = request_.name,
-            .version = 2,
+            .version = 3,
             .reads = {names_.textured(), names_.clip(request_.name)},
             .writes = {names_.animated(request_.name)}};
   }

@@ -73,7 +73,7 @@ class Pictures final : public Stage {
 
   StageInfo info() const override {
     StageInfo info{.name = "pictures",
-                   .version = 4,
+                   .version = 5,
                    .reads = {names_.result(), names_.surface(), names_.graft(), names_.groups()}};
     for (const ClipRequest& clip : clips_) info.reads.push_back(names_.quality(clip.name));
     for (const std::string& name : all_) info.writes.push_back(names_.picture(name));

@@ -66,7 +66,7 @@ class Texture final : public Stage {
   StageInfo info() const override {
     return {
         .name = "texture",
-        .version = 1,
+        .version = 2,
         .reads = joined(character_names(names_, inputs_),
                         {names_.graft(), names_.placed(), names_.surface(), names_.bound(), names_.shares()}),
         .writes = {names_.textured(), names_.color_steps()}};
