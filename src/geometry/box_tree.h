@@ -47,6 +47,29 @@ struct BoxTree {
   }
 };
 
+/// Calls `visit(item, place in tree.order)` for all items of the leaves whose boxes overlap `wanted`, in no
+/// order that means anything. The boxes of the items themselves are for the visitor to look at.
+template <class Visit>
+void visit_near(const BoxTree& tree, const Box3& wanted, Visit visit) {
+  std::array<std::int32_t, BoxTree::kStackSize> open;
+  std::size_t size = 0;
+  if (!tree.nodes.empty()) open[size++] = 0;
+  while (size > 0) {
+    const BoxTree::Node& node = tree.nodes[static_cast<std::size_t>(open[--size])];
+    for (int lane = 0; lane < BoxTree::kWidth; ++lane) {
+      const BoxTree::Child child = node.children[lane];
+      bool meets = !child.is_none();
+      for (int axis = 0; axis < 3; ++axis)
+        meets = meets && node.low[axis][lane] <= wanted.max()[axis] &&
+                node.high[axis][lane] >= wanted.min()[axis];
+      if (!meets) continue;
+      if (!child.is_leaf()) open[size++] = child.first;
+      for (std::int32_t i = child.first; i < child.first + child.count; ++i)
+        visit(tree.order[static_cast<std::size_t>(i)], i);
+    }
+  }
+}
+
 /// Builds the tree over boxes by the binned surface area heuristic along the longest axis of the centres
 /// (Wald 2007), at most `leaf_size` items a leaf. Deterministic. O(n log n).
 BoxTree build_box_tree(std::span<const Box3> boxes, int leaf_size);

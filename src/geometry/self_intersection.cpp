@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/expect.h"
 #include "base/parallel.h"
 #include "geometry/box_tree.h"
-#include "geometry/triangle_bvh.h"
 #include "geometry/triangle_math.h"
 
 namespace skinforge {
@@ -14,7 +14,8 @@ namespace {
 
 using Corners = std::array<std::int32_t, 3>;
 constexpr double kTolerance =
-    1e-9;  // ours, of the diagonal: above the rounding of the products, below any triangle
+    1e-9;                     // ours, of the diagonal: above the rounding of the products, below any triangle
+constexpr int kLeafSize = 4;  // ours: triangles of a tree's leaf
 
 bool has(const Corners& t, std::int32_t v) {
   return t[0] == v || t[1] == v || t[2] == v;
@@ -77,6 +78,42 @@ double tolerance_of(std::span<const Vec3> positions) {
   return box.isEmpty() ? 0 : kTolerance * box.diagonal().norm();
 }
 
+bool is_asked(const PairScope& scope, std::size_t triangle) {
+  return scope.subset.empty() || scope.subset[triangle] != 0;
+}
+
+std::int32_t group_of(const PairScope& scope, std::size_t triangle) {
+  return scope.groups.empty() ? -1 : scope.groups[triangle];
+}
+
+std::vector<Box3> boxes_of(std::span<const Vec3> positions, std::span<const Corners> triangles) {
+  std::vector<Box3> boxes(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const std::int32_t v : triangles[t]) boxes[t].extend(positions[v]);
+  return boxes;
+}
+
+// The triangles of one group that are asked about. A tree for each group, so that nobody walks among those it
+// is not compared with.
+struct Grove {
+  std::int32_t group;
+  std::vector<std::int32_t> triangles;
+  BoxTree tree;
+};
+
+std::vector<Grove> groves_of(const std::vector<Box3>& boxes, const PairScope& scope) {
+  std::map<std::int32_t, std::vector<std::int32_t>> asked;
+  for (std::size_t t = 0; t < boxes.size(); ++t)
+    if (is_asked(scope, t)) asked[std::max(group_of(scope, t), -1)].push_back(static_cast<std::int32_t>(t));
+  std::vector<Grove> groves;
+  for (auto& [group, triangles] : asked) {
+    std::vector<Box3> own;
+    for (const std::int32_t t : triangles) own.push_back(boxes[static_cast<std::size_t>(t)]);
+    groves.push_back({group, std::move(triangles), build_box_tree(own, kLeafSize)});
+  }
+  return groves;
+}
+
 }  // namespace
 
 bool triangles_intersect(std::span<const Vec3> positions, const Corners& a, const Corners& b,
@@ -94,32 +131,22 @@ std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(std::span<
   SF_EXPECT(scope.subset.empty() || scope.subset.size() == triangles.size());
   SF_EXPECT(scope.groups.empty() || scope.groups.size() == triangles.size());
   const double tolerance = tolerance_of(positions);
-  const auto is_asked = [&](std::int32_t t) {
-    return scope.subset.empty() || scope.subset[static_cast<std::size_t>(t)];
-  };
-  const auto are_one_group = [&](std::int32_t s, std::int32_t t) {
-    return !scope.groups.empty() && scope.groups[s] >= 0 && scope.groups[s] == scope.groups[t];
-  };
-  // A tree of those that are asked about, which are often few.
-  std::vector<std::int32_t> asked;
-  std::vector<Corners> corners;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    if (is_asked(static_cast<std::int32_t>(t)))
-      asked.push_back(static_cast<std::int32_t>(t)), corners.push_back(triangles[t]);
-  const TriangleBvh bvh(positions, corners);
+  const std::vector<Box3> boxes = boxes_of(positions, triangles);
+  const std::vector<Grove> groves = groves_of(boxes, scope);
   std::vector<std::vector<std::int32_t>> partners(triangles.size());
   parallel_chunks(triangles.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto id = static_cast<std::int32_t>(i);
-      Box3 box;
-      for (const std::int32_t v : triangles[i]) box.extend(positions[v]);
-      for (const std::int32_t found : bvh.overlapping(box.min(), box.max())) {
-        const std::int32_t other = asked[static_cast<std::size_t>(found)];
-        const bool finds_this = is_asked(id) && other <= id;  // the other one finds this pair
-        if (finds_this || are_one_group(id, other)) continue;
-        const auto& [first, second] = is_asked(id) ? std::pair(id, other) : std::pair(other, id);
-        if (triangles_intersect(positions, triangles[first], triangles[second], tolerance))
-          partners[i].push_back(other);
+      for (const Grove& grove : groves) {
+        if (grove.group >= 0 && grove.group == group_of(scope, i)) continue;
+        visit_near(grove.tree, boxes[i], [&](std::int32_t item, std::int32_t) {
+          const std::int32_t other = grove.triangles[static_cast<std::size_t>(item)];
+          const bool finds_this = is_asked(scope, i) && other <= id;  // the other one finds this pair
+          if (finds_this || !boxes[static_cast<std::size_t>(other)].intersects(boxes[i])) return;
+          const auto& [first, second] = is_asked(scope, i) ? std::pair(id, other) : std::pair(other, id);
+          if (triangles_intersect(positions, triangles[first], triangles[second], tolerance))
+            partners[i].push_back(other);
+        });
       }
     }
   });

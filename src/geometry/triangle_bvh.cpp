@@ -303,22 +303,9 @@ RayHit TriangleBvh::first_hit(const Vec3& origin, const Vec3& direction, double 
 std::vector<std::int32_t> TriangleBvh::overlapping(const Vec3& low, const Vec3& high) const {
   std::vector<std::int32_t> found;
   const Box3 wanted(low, high);
-  std::vector<std::int32_t> open;
-  if (!impl_->tree.nodes.empty()) open.push_back(0);
-  while (!open.empty()) {
-    const BoxTree::Node& node = impl_->tree.nodes[open.back()];
-    open.pop_back();
-    for (int lane = 0; lane < BoxTree::kWidth; ++lane) {
-      const BoxTree::Child child = node.children[lane];
-      bool meets = !child.is_none();
-      for (int axis = 0; axis < 3; ++axis)
-        meets = meets && node.low[axis][lane] <= high[axis] && node.high[axis][lane] >= low[axis];
-      if (!meets) continue;
-      if (!child.is_leaf()) open.push_back(child.first);
-      for (std::int32_t i = child.first; i < child.first + child.count; ++i)
-        if (box_of(impl_->corners[i]).intersects(wanted)) found.push_back(impl_->tree.order[i]);
-    }
-  }
+  visit_near(impl_->tree, wanted, [&](std::int32_t triangle, std::int32_t place) {
+    if (box_of(impl_->corners[place]).intersects(wanted)) found.push_back(triangle);
+  });
   std::sort(found.begin(), found.end());
   return found;
 }
