@@ -142,7 +142,8 @@ void try_quad_caps(Ladder& ladder, const std::vector<JunctionLoop>& loops, const
 }
 
 // Wide clearance leaves the zip room to turn; a narrow one keeps rings apart where borders are close. Where
-// the surface is thinner than the borders' edges are long, only a finer mesh stays free of cuts.
+// the surface is thinner than the borders' edges are long, only a finer mesh stays free of cuts: as little
+// finer as may be.
 void try_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, const SiteField& field,
                const KeptSurface& kept, const PatchMirror* mirror, std::string& reason) {
   const FieldJunction from_field(loops, field, kept);
@@ -154,7 +155,7 @@ void try_field(Ladder& ladder, const std::vector<JunctionLoop>& loops, const Sit
   }
   for (const TrianglePatch& patch : zipped)
     if (!ladder.is_done()) ladder.offer(from_field.remeshed(patch, 1), JunctionRung::Field);
-  for (const double length_scale : {0.5, 0.25})
+  for (const double length_scale : {0.8, 0.65, 0.5, 0.35, 0.25})
     for (const TrianglePatch& patch : zipped)
       if (!ladder.is_done())
         ladder.offer_if_sound(from_field.remeshed(patch, length_scale), JunctionRung::Field);
