@@ -12,6 +12,7 @@ namespace {
 constexpr double kInside = 0.8;          // ours: of the mean distance of skin from its axis
 constexpr std::size_t kMostBalls = 4;    // ours: along one joint
 constexpr std::size_t kFewVertices = 4;  // less are no limb
+constexpr float kFarAway = 1e15F;        // its square is still a float
 
 // The vertices that each joint moves most, in the joint's frame.
 std::vector<std::vector<Vec3>> vertices_by_joint(const Character& input) {
@@ -79,38 +80,71 @@ std::vector<float> ball_centers(const Skeleton& skeleton, const MotionSet& set) 
   return centers;
 }
 
-Affine3 Clearance::Side::from_model(const Pose& pose) const {
-  return anchor.is_valid() ? Affine3(from_anchor * model_from_joint(input->skeleton, pose, anchor).inverse())
-                           : from_anchor;
-}
+// One side of a seam: the balls of a source, and how they come into the frame of the joint it meets at.
+struct Clearance::Side {
+  const Character* input = nullptr;
+  const MotionSet* set = nullptr;
+  JointId anchor;  // of the input: balls are taken relative to it; invalid: to the model
+  Affine3 from_anchor = Affine3::Identity();  // into the frame where both sides meet
+  double scale = 1;                           // of radii
 
-std::vector<Vec3> Clearance::Side::bind_places() const {
-  const Pose pose = bind_pose(input->skeleton);
-  const std::vector<Affine3> joints = model_from_joint(input->skeleton, pose);
-  const Affine3 placed = from_model(pose);
-  std::vector<Vec3> centers;
-  for (const SkinBall& ball : set->balls)
-    centers.push_back(placed * (joints[ball.joint.index()] * ball.center));
-  return centers;
-}
-
-const std::vector<Vec3>& Clearance::Side::at(std::size_t frame) {
-  if (places.empty()) places.resize(set->poses.size());
-  std::vector<Vec3>& here = places[frame];
-  const std::size_t count = set->balls.size();
-  if (here.size() == count) return here;
-  const Affine3 placed = from_model(set->poses[frame]);
-  here.reserve(count);
-  for (std::size_t b = 0; b < count; ++b) {
-    const float* center = set->ball_centers.data() + 3 * (frame * count + b);
-    here.push_back(placed * Vec3(center[0], center[1], center[2]));
+  Affine3 from_model(const Pose& pose) const {
+    return anchor.is_valid()
+               ? Affine3(from_anchor * model_from_joint(input->skeleton, pose, anchor).inverse())
+               : from_anchor;
   }
-  return here;
+
+  std::vector<Vec3> bind_places() const {
+    const Pose pose = bind_pose(input->skeleton);
+    const std::vector<Affine3> joints = model_from_joint(input->skeleton, pose);
+    const Affine3 placed = from_model(pose);
+    std::vector<Vec3> centers;
+    for (const SkinBall& ball : set->balls)
+      centers.push_back(placed * (joints[ball.joint.index()] * ball.center));
+    return centers;
+  }
+
+  // One track per ball, one place per frame; those not asked for stay far from everything.
+  std::vector<Track> tracks(std::size_t first, std::size_t count, const std::vector<bool>* allowed) const {
+    std::vector<Track> tracks(set->balls.size());
+    for (Track& track : tracks)
+      track.places = Eigen::ArrayX3f::Constant(static_cast<Eigen::Index>(count), 3, kFarAway);
+    for (std::size_t f = 0; f < count; ++f) {
+      if (allowed && !(*allowed)[f]) continue;
+      const Eigen::Affine3f placed = Eigen::Affine3d(from_model(set->poses[first + f])).cast<float>();
+      const float* center = set->ball_centers.data() + 3 * (first + f) * tracks.size();
+      for (std::size_t b = 0; b < tracks.size(); ++b, center += 3) {
+        const Eigen::Vector3f place = placed * Eigen::Vector3f(center[0], center[1], center[2]);
+        tracks[b].places.row(static_cast<Eigen::Index>(f)) = place.transpose().array();
+        tracks[b].reach.extend(place);
+      }
+    }
+    return tracks;
+  }
+};
+
+// Pairs of balls that some row and some candidate might bring together: closer than in the bind pose by what
+// they may overlap there.
+Clearance::Seam Clearance::make_seam(const Side& driver, const Side& part, double unit, const Scope& scope) {
+  Seam seam{driver.tracks(scope.first, scope.count, nullptr),
+            part.tracks(0, scope.allowed.size(), &scope.allowed),
+            {},
+            static_cast<float>(unit)};
+  const std::vector<Vec3> driver_bind = driver.bind_places(), part_bind = part.bind_places();
+  for (std::size_t a = 0; a < driver_bind.size(); ++a)
+    for (std::size_t b = 0; b < part_bind.size(); ++b) {
+      const double sum = driver.scale * driver.set->balls[a].radius + part.scale * part.set->balls[b].radius;
+      const auto touch = static_cast<float>(std::min(sum, (driver_bind[a] - part_bind[b]).norm()));
+      if (seam.driver[a].reach.exteriorDistance(seam.part[b].reach) < touch)
+        seam.pairs.push_back({a, b, touch});
+    }
+  return seam;
 }
 
 Clearance::Clearance(std::span<const Character* const> characters, const Graft& graft,
                      std::span<const MotionSet* const> motions, const DrivingClip& driver,
-                     const PartToComplete& part) {
+                     const PartToComplete& part, const Scope& scope)
+    : candidates_(static_cast<Eigen::Index>(scope.allowed.size())) {
   const auto is_in = [](const std::vector<SourceId>& sources, SourceId s) {
     return std::find(sources.begin(), sources.end(), s) != sources.end();
   };
@@ -124,83 +158,49 @@ Clearance::Clearance(std::span<const Character* const> characters, const Graft& 
     const bool drives_above = is_in(driver.sources, above.source) && is_in(part.sources, site.donor);
     const bool drives_below = is_in(driver.sources, site.donor) && is_in(part.sources, above.source);
     if (!drives_above && !drives_below) continue;
-    const auto side = [&](SourceId source, JointId anchor, const Affine3& from_anchor, double scale) {
-      const Character* input = characters[graft.sources[source.index()].input];
-      Side made{input, motions[source.index()], anchor, from_anchor, scale, {}, {}};
-      made.bind = made.bind_places();
-      return made;
-    };
-    const Character& host = *characters[graft.sources[above.source.index()].input];
-    const Character& donor = *characters[graft.sources[site.donor.index()].input];
+    const GraftSource &host_source = graft.sources[above.source.index()],
+                      &donor_source = graft.sources[site.donor.index()];
+    const Character &host = *characters[host_source.input], &donor = *characters[donor_source.input];
     const double scale_above =
         1 / scale_of(host.skeleton[above.joint].joint_from_model);  // of the meeting joint
-    const double host_scale = graft.sources[above.source.index()].model_from_input.scale;
-    const double donor_scale = graft.sources[site.donor.index()].model_from_input.scale;
-    Side upper = side(above.source, above.joint, Affine3::Identity(), 1 / scale_above);
-    Side lower = side(site.donor, donor.skeleton[top.joint].parent, Affine3(top.change.matrix()),
-                      donor_scale / (host_scale * scale_above));
-    Seam seam{std::move(drives_above ? upper : lower),
-              std::move(drives_above ? lower : upper),
-              host_scale * scale_above / diagonal,
-              {},
-              {}};
-    seam.pairs = all_pairs(seam);
-    seams_.push_back(std::move(seam));
+    const double host_scale = host_source.model_from_input.scale;
+    const Side upper{&host, motions[above.source.index()], above.joint, Affine3::Identity(), 1 / scale_above};
+    const Side lower{&donor, motions[site.donor.index()], donor.skeleton[top.joint].parent,
+                     Affine3(top.change.matrix()),
+                     donor_source.model_from_input.scale / (host_scale * scale_above)};
+    const double unit = host_scale * scale_above / diagonal;
+    seams_.push_back(drives_above ? make_seam(upper, lower, unit, scope)
+                                  : make_seam(lower, upper, unit, scope));
   }
 }
 
-// Pairs of balls, closer than in the bind pose by what they may overlap there.
-std::vector<Clearance::Pair> Clearance::all_pairs(const Seam& seam) {
-  std::vector<Pair> pairs;
-  for (std::size_t a = 0; a < seam.driver.bind.size(); ++a)
-    for (std::size_t b = 0; b < seam.part.bind.size(); ++b) {
-      const double sum = seam.driver.scale * seam.driver.set->balls[a].radius +
-                         seam.part.scale * seam.part.set->balls[b].radius;
-      pairs.push_back({a, b, std::min(sum, (seam.driver.bind[a] - seam.part.bind[b]).norm())});
-    }
-  return pairs;
-}
-
-double Clearance::depth(std::size_t driver_frame, std::size_t candidate) {
-  double deepest = 0;
-  for (Seam& seam : seams_) {
-    const auto &driver = seam.driver.at(driver_frame), &part = seam.part.at(candidate);
+double Clearance::depth(std::size_t row, std::size_t candidate) const {
+  const auto r = static_cast<Eigen::Index>(row), c = static_cast<Eigen::Index>(candidate);
+  float deepest = 0;
+  for (const Seam& seam : seams_)
     for (const Pair& pair : seam.pairs) {
-      const double distance2 = (driver[pair.driver] - part[pair.part]).squaredNorm();
+      const float distance2 = (seam.driver[pair.driver].places.row(r) - seam.part[pair.part].places.row(c))
+                                  .matrix()
+                                  .squaredNorm();
       if (distance2 < pair.touch * pair.touch)
         deepest = std::max(deepest, seam.unit * (pair.touch - std::sqrt(distance2)));
     }
-  }
-  return deepest;
+  return static_cast<double>(deepest);
 }
 
-std::vector<Eigen::AlignedBox3d> Clearance::reach_of(Side& part, const std::vector<bool>& allowed) {
-  std::vector<Eigen::AlignedBox3d> reach(part.bind.size());
-  for (std::size_t c = 0; c < allowed.size(); ++c) {
-    if (!allowed[c]) continue;
-    const auto& places = part.at(c);
-    for (std::size_t b = 0; b < places.size(); ++b) reach[b].extend(places[b]);
-  }
-  return reach;
-}
-
-std::vector<double> Clearance::depths(std::size_t driver_frame, const std::vector<bool>& allowed) {
-  std::vector<double> deepest(allowed.size(), 0.0);
-  for (Seam& seam : seams_) {
-    if (seam.reach.empty()) seam.reach = reach_of(seam.part, allowed);
-    const auto& driver = seam.driver.at(driver_frame);
+Eigen::ArrayXf Clearance::depths(std::size_t row) const {
+  Eigen::ArrayXf deepest = Eigen::ArrayXf::Zero(candidates_);
+  for (const Seam& seam : seams_)
     for (const Pair& pair : seam.pairs) {
-      const Vec3& ball = driver[pair.driver];
-      if (seam.reach[pair.part].isEmpty() || seam.reach[pair.part].exteriorDistance(ball) >= pair.touch)
-        continue;
-      for (std::size_t c = 0; c < allowed.size(); ++c) {
-        if (!allowed[c]) continue;
-        const double distance2 = (ball - seam.part.places[c][pair.part]).squaredNorm();
-        if (distance2 < pair.touch * pair.touch)
-          deepest[c] = std::max(deepest[c], seam.unit * (pair.touch - std::sqrt(distance2)));
-      }
+      const Eigen::Vector3f ball = seam.driver[pair.driver].places.row(static_cast<Eigen::Index>(row));
+      const Track& track = seam.part[pair.part];
+      if (track.reach.exteriorDistance(ball) >= pair.touch) continue;
+      const auto& p = track.places;
+      deepest = deepest.max(seam.unit *
+                            (pair.touch - ((p.col(0) - ball.x()).square() + (p.col(1) - ball.y()).square() +
+                                           (p.col(2) - ball.z()).square())
+                                              .sqrt()));
     }
-  }
   return deepest;
 }
 

@@ -19,44 +19,43 @@ std::vector<float> ball_centers(const Skeleton& skeleton, const MotionSet& set);
 /// balls inside their skins (`MotionSet::balls`): rough, but for thousands of keyframes at once.
 class Clearance {
  public:
-  /// Arguments as for `complete_clip`; all must outlive it.
+  /// Frames of the driver's motion set, [first, first + count), and flags of the part's keyframes that may be
+  /// asked about.
+  struct Scope {
+    std::size_t first = 0, count = 0;
+    const std::vector<bool>& allowed;
+  };
+  /// Other arguments as for `complete_clip`; nothing of them is kept.
   Clearance(std::span<const Character* const> characters, const Graft& graft,
-            std::span<const MotionSet* const> motions, const DrivingClip& driver, const PartToComplete& part);
+            std::span<const MotionSet* const> motions, const DrivingClip& driver, const PartToComplete& part,
+            const Scope& scope);
 
   /// Depth of the deepest pair beyond what it has in the bind pose, as a share of the base's diagonal. 0 =
-  /// they are clear. `driver_frame`, `candidate`: frames of the two motion sets.
-  double depth(std::size_t driver_frame, std::size_t candidate);
-  /// The same for all candidates, 0 for those that are not allowed; `allowed` must not change between calls.
-  std::vector<double> depths(std::size_t driver_frame, const std::vector<bool>& allowed);
+  /// they are clear. `row`: of the scope; `candidate`: allowed frame of the part's motion set.
+  double depth(std::size_t row, std::size_t candidate) const;
+  /// The same for all candidates, 0 for those that are not allowed.
+  Eigen::ArrayXf depths(std::size_t row) const;
 
  private:
-  // One side of a seam: the balls of a source, and how they come into the frame of the joint it meets at.
-  struct Side {
-    const Character* input = nullptr;
-    const MotionSet* set = nullptr;
-    JointId anchor;  // of the input: balls are taken relative to it; invalid: to the model
-    Affine3 from_anchor = Affine3::Identity();  // into the frame where both sides meet
-    double scale = 1;                           // of radii
-    std::vector<std::vector<Vec3>> places;      // per frame, when asked for
-    std::vector<Vec3> bind;
-
-    const std::vector<Vec3>& at(std::size_t frame);
-    Affine3 from_model(const Pose& pose) const;
-    std::vector<Vec3> bind_places() const;
+  // Places of one ball, one per frame.
+  struct Track {
+    Eigen::ArrayX3f places;
+    Eigen::AlignedBox3f reach;
   };
+  // Two balls that may meet.
   struct Pair {
-    std::size_t driver, part;  // balls
-    double touch;              // distance at which they count
+    std::size_t driver, part;
+    float touch;  // distance at which they count
   };
   struct Seam {
-    Side driver, part;
-    double unit = 1;  // what a length in its frame is, of the base's diagonal
+    std::vector<Track> driver, part;  // per ball
     std::vector<Pair> pairs;
-    std::vector<Eigen::AlignedBox3d> reach;  // per ball of the part, over all allowed candidates
+    float unit = 1;  // what a length in its frame is, of the base's diagonal
   };
+  struct Side;
+  static Seam make_seam(const Side& driver, const Side& part, double unit, const Scope& scope);
 
-  static std::vector<Eigen::AlignedBox3d> reach_of(Side& part, const std::vector<bool>& allowed);
-  static std::vector<Pair> all_pairs(const Seam& seam);
+  Eigen::Index candidates_;
   std::vector<Seam> seams_;
 };
 

@@ -11,10 +11,10 @@
 namespace skinforge {
 namespace {
 
-constexpr double kMayCut = 0.005;      // ours: of the diagonal; balls are rough
-constexpr double kCuttingCost = 10;    // ours: for a depth of the diagonal; 1 % costs as much as another name
-constexpr double kMostForCutting = 1;  // ours: no more than a jump and a bad pose
-constexpr int kCuttingRounds = 2;      // ours: the second search may cut elsewhere
+constexpr double kMayCut = 0.005;     // ours: of the diagonal; balls are rough
+constexpr float kCuttingCost = 10;    // ours: for a depth of the diagonal; 1 % costs as much as another name
+constexpr float kMostForCutting = 1;  // ours: no more than a jump and a bad pose
+constexpr int kCuttingRounds = 2;     // ours: the second search may cut elsewhere
 
 FrameSteps row_steps(const DriverFrames& frames) {
   FrameSteps steps;
@@ -147,19 +147,17 @@ PathCosts path_costs(const CompletionOptions& options) {
 }
 
 // Rows in which the parts cut each other along a path; their costs grow by what every keyframe would cut.
-std::int64_t add_cutting_costs(Clearance& clearance, const DriverFrames& frames, const KeyframePath& path,
-                               const std::vector<bool>& allowed, std::vector<bool>& is_done,
-                               DistanceTable& costs) {
+std::int64_t add_cutting_costs(const Clearance& clearance, const KeyframePath& path,
+                               std::vector<bool>& is_done, DistanceTable& costs) {
   std::int64_t found = 0;
-  for (std::size_t f = 0; f < frames.rows; ++f) {
+  for (std::size_t f = 0; f < path.candidates.size(); ++f) {
     const auto shown = static_cast<std::size_t>(path.candidates[f]);
-    if (is_done[f] || clearance.depth(frames.first + f, shown) <= kMayCut) continue;
+    if (is_done[f] || clearance.depth(f, shown) <= kMayCut) continue;
     is_done[f] = true;
     ++found;
-    const std::vector<double> depths = clearance.depths(frames.first + f, allowed);
     const auto row = costs.row(f);
-    for (std::size_t c = 0; c < row.size(); ++c)
-      row[c] += static_cast<float>(std::min(kMostForCutting, kCuttingCost * depths[c]));
+    Eigen::Map<Eigen::ArrayXf>(row.data(), static_cast<Eigen::Index>(row.size())) +=
+        (kCuttingCost * clearance.depths(f)).min(kMostForCutting);
   }
   return found;
 }
@@ -206,10 +204,10 @@ ChosenKeyframes choose_keyframes(std::span<const Character* const> characters, c
           path_costs(options));
     };
     chosen.path = search();
-    Clearance clearance(characters, graft, motions, driver, part);
+    const Clearance clearance(characters, graft, motions, driver, part, {frames.first, frames.rows, allowed});
     std::vector<bool> is_done(frames.rows, false);
     for (int round = 0; round < kCuttingRounds; ++round) {
-      const std::int64_t found = add_cutting_costs(clearance, frames, chosen.path, allowed, is_done, costs);
+      const std::int64_t found = add_cutting_costs(clearance, chosen.path, is_done, costs);
       if (found == 0) break;
       chosen.cutting_frames += found;
       chosen.path = search();

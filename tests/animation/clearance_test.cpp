@@ -74,14 +74,15 @@ TEST(Clearance, IsDeepWhereTheArmGoesThroughThePost) {
   const CompletionOptions options;
   const Casting casting = cast_sources(m.pointers, m.graft, 0, 0, options);
   ASSERT_EQ(casting.parts.size(), 1U);
-  Clearance clearance(m.pointers, m.graft, motions, casting.driver, casting.parts[0]);
+  const std::vector<bool> all(m.motions[1].poses.size(), true);
+  const Clearance clearance(m.pointers, m.graft, motions, casting.driver, casting.parts[0], {0, 1, all});
   const auto through = static_cast<std::size_t>(m.motions[1].clip_begin[0]),
              beside = static_cast<std::size_t>(m.motions[1].clip_begin[1]);
   EXPECT_GT(clearance.depth(0, through), 0.01);
   EXPECT_EQ(clearance.depth(0, beside), 0);
-  const std::vector<bool> all(m.motions[1].poses.size(), true);
-  const auto depths = clearance.depths(0, all);
-  for (std::size_t c = 0; c < all.size(); ++c) EXPECT_DOUBLE_EQ(depths[c], clearance.depth(0, c));
+  const Eigen::ArrayXf depths = clearance.depths(0);
+  for (std::size_t c = 0; c < all.size(); ++c)
+    EXPECT_NEAR(depths[static_cast<Eigen::Index>(c)], clearance.depth(0, c), 1e-6);
 }
 
 // Law: nothing that cuts is shown where something does not.
