@@ -47,7 +47,7 @@ double interpolate(const DistanceField& field, const Cells& cells) {
 
 double DistanceField::at(const Vec3& p) const {
   SF_EXPECT(lattice.count() > 0 && values.size() == lattice.count());
-  return interpolate(*this, cells_at(lattice, p));
+  return lattice.voxel * interpolate(*this, cells_at(lattice, p));
 }
 
 Vec3 DistanceField::gradient(const Vec3& p) const {
@@ -61,8 +61,7 @@ Vec3 DistanceField::gradient(const Vec3& p) const {
     Cells high = centre, low = centre;
     high[axis] = above[axis];
     low[axis] = below[axis];
-    result[static_cast<Eigen::Index>(axis)] =
-        (interpolate(*this, high) - interpolate(*this, low)) / lattice.voxel;
+    result[static_cast<Eigen::Index>(axis)] = interpolate(*this, high) - interpolate(*this, low);
   }
   return result;
 }

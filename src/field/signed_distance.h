@@ -33,10 +33,12 @@ struct Lattice {
 /// Signed distances on a lattice, negative inside; x runs fastest.
 struct DistanceField {
   Lattice lattice;
-  std::vector<float> values;  ///< metres
+  /// In voxels, so that the same scene at another size has the same floats: rounding that depends on the size
+  /// would be thousands of times that of doubles, and what is made of a field would hang on it.
+  std::vector<float> values;
 
-  /// Trilinear value at a model-space point; points outside the lattice take the value of the nearest lattice
-  /// point.
+  /// Trilinear value in metres at a model-space point; points outside the lattice take the value of the
+  /// nearest lattice point.
   double at(const Vec3& p) const;
   /// Gradient of the trilinear interpolant by central differences of half a voxel.
   Vec3 gradient(const Vec3& p) const;

@@ -14,7 +14,7 @@ struct Sample {
   float distance = 0, presence = 0;
 };
 
-// Values at the corners of all cubes, on the grown lattice; others stay 0.
+// Values at the corners of all cubes, on the grown lattice, not cut at the band; others stay 0.
 class Corners {
  public:
   Corners(const SamplingCells& cells, const TriangleBvh& bvh,
@@ -54,7 +54,8 @@ class Corners {
       presence += weight * static_cast<double>(sample.presence);
     }
     const double volume = static_cast<double>(size) * size * size;
-    return {static_cast<float>(distance / volume), static_cast<float>(presence / volume)};
+    return {static_cast<float>(std::clamp(distance / volume, -band_, band_)),
+            static_cast<float>(presence / volume)};
   }
 
  private:
@@ -63,7 +64,7 @@ class Corners {
     const ClosestPoint nearest = bvh_.closest_from_hint(point, cell.triangle);
     const bool inside =
         cell.side == Side::Unknown ? bvh_.winding_number(point) > 0.5 : cell.side == Side::Inside;
-    const double length = std::min(nearest.distance, band_);
+    const double length = nearest.distance / cells_.lattice.voxel;
     const auto& corners = triangles_[nearest.triangle];
     double presence = 0;
     for (int c = 0; c < 3; ++c) presence += nearest.barycentric[c] * presence_[corners[c]];

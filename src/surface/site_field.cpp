@@ -177,15 +177,17 @@ SiteField build_site_field(const std::vector<FusionSolid>& solids, const FieldOp
   field.band = options.band_voxels * lattice.voxel;
   std::vector<SourceSamples> sources;
   for (const FusionSolid& solid : solids)
-    sources.push_back(sample_source(lattice, solid.bvh, solid.triangles, solid.presence, field.band));
+    sources.push_back(
+        sample_source(lattice, solid.bvh, solid.triangles, solid.presence, options.band_voxels));
   field.distance.values.resize(lattice.count());
   parallel_chunks(lattice.count(), 4096, [&](std::size_t begin, std::size_t end) {
     std::vector<SolidSample> samples(solids.size());
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t s = 0; s < solids.size(); ++s)
-        samples[s] = {sources[s].distance[i], sources[s].presence[i]};
+        samples[s] = {lattice.voxel * sources[s].distance[i], sources[s].presence[i]};
       const auto direction = [&](std::size_t s) { return direction_at(lattice, sources[s].distance, i); };
-      field.distance.values[i] = static_cast<float>(blend_samples(field.blend, samples, direction));
+      field.distance.values[i] =
+          static_cast<float>(blend_samples(field.blend, samples, direction) / lattice.voxel);
     }
   });
   return field;

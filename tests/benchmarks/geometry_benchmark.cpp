@@ -95,7 +95,7 @@ Lattice lattice_around(const Soup& s, double points) {
 
 SourceSamples sample(const Soup& s, const TriangleBvh& bvh, const Lattice& lattice) {
   const std::vector<double> presence(s.positions.size(), 0.5);
-  return sample_source(lattice, bvh, s.triangles, presence, 30 * lattice.voxel);
+  return sample_source(lattice, bvh, s.triangles, presence, 30);
 }
 
 void sample_lattice(benchmark::State& state) {

@@ -30,8 +30,8 @@ TEST(BlendReplace, ByHand) {
   EXPECT_EQ(blend_replace(2, 1, -1, 0), 2);
   EXPECT_EQ(blend_replace(2, 0, -1, 1), -1);
   EXPECT_NEAR(blend_replace(2, 0.5, -1, 0.5), 0.5, kRounding);
-  EXPECT_EQ(blend_replace(2, 1, -1, 0.5), 2);  // wholly present: decides alone
-  EXPECT_EQ(blend_replace(2, 1, -1, 1), -1);  // both: the union
+  EXPECT_EQ(blend_replace(2, 1, -1, 0.5), 2);       // wholly present: decides alone
+  EXPECT_EQ(blend_replace(2, 1, -1, 1), -1);        // both: the union
   EXPECT_EQ(blend_replace(2, 0, -1, 0), 0.5);       // nobody is present: the mean
   EXPECT_EQ(blend_replace(2, 0.0005, -1, 0), 0.5);  // present only within the tolerance
 }

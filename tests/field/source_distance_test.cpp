@@ -29,9 +29,8 @@ SourceSamples sample(const Lattice& lattice, const Soup& s, double band) {
 // Cube [0, 2]^3 by hand: inside, outside, beyond the band.
 TEST(SampleSource, CubeByHand) {
   const Lattice lattice{.origin = Vec3(-4, 1, 1), .voxel = 0.5, .size = {15, 1, 1}};
-  const SourceSamples samples = sample(lattice, testing::cube_soup(2), 1.25);
-  const std::vector<float> expected = {1.25f, 1.25f, 1.25f, 1.25f, 1.25f, 1.25f, 1, 0.5f,
-                                       0,     -0.5f, -1,    -0.5f, 0,     0.5f,  1};
+  const SourceSamples samples = sample(lattice, testing::cube_soup(2), 2.5);
+  const std::vector<float> expected = {2.5f, 2.5f, 2.5f, 2.5f, 2.5f, 2.5f, 2, 1, 0, -1, -2, -1, 0, 1, 2};
   ASSERT_EQ(samples.distance.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(samples.distance[i], expected[i], kFloat);
   EXPECT_NEAR(samples.presence[7], 0.5, kFloat);  // nearest point x = 0
@@ -45,17 +44,17 @@ TEST(SampleSource, MatchesQueriesOfEveryPoint) {
   const std::vector<double> presence = ramp(knot);
   Lattice lattice = testing::centred_lattice(37, 3.7);
   lattice.size = {37, 30, 21};
-  const double band = 4 * lattice.voxel;
+  const double band = 4;
   const SourceSamples samples = sample_source(lattice, bvh, knot.triangles, presence, band);
   for (int k = 0; k < lattice.size[2]; ++k)
     for (int j = 0; j < lattice.size[1]; ++j)
       for (int i = 0; i < lattice.size[0]; ++i) {
         const Vec3 p = lattice.point(i, j, k);
         const ClosestPoint nearest = bvh.closest(p);
-        const double length = std::min(nearest.distance, band);
+        const double length = std::min(nearest.distance / lattice.voxel, band);
         const double signed_length = bvh.winding_number(p) > 0.5 ? -length : length;
         ASSERT_NEAR(samples.distance[lattice.index(i, j, k)], signed_length, kFloat);
-        if (nearest.distance > band) continue;
+        if (nearest.distance > band * lattice.voxel) continue;
         double expected = 0;
         for (int c = 0; c < 3; ++c)
           expected += nearest.barycentric[c] * presence[knot.triangles[nearest.triangle][c]];
@@ -71,14 +70,14 @@ TEST(SampleSource, FarFromTheSurfaceItIsNearlyExact) {
   const Soup ball = testing::sphere_soup(40);
   const TriangleBvh bvh(ball.positions, ball.triangles);
   const Lattice lattice = testing::centred_lattice(81, 2.4);
-  const SourceSamples samples = sample_source(lattice, bvh, ball.triangles, ramp(ball), 30 * lattice.voxel);
+  const SourceSamples samples = sample_source(lattice, bvh, ball.triangles, ramp(ball), 30);
   double near = 0, outside = 0, inside = 0;  // largest errors, voxels
   for (int k = 0; k < 81; k += 3)
     for (int j = 0; j < 81; ++j)
       for (int i = 0; i < 81; ++i) {
         const Vec3 p = lattice.point(i, j, k);
         const double distance = bvh.closest(p).distance / lattice.voxel;
-        const double found = samples.distance[lattice.index(i, j, k)] / lattice.voxel;
+        const double found = samples.distance[lattice.index(i, j, k)];
         const double error = std::abs(std::abs(found) - std::min(distance, 30.0));
         double& largest = distance < 4 ? near : (p.norm() > 1 ? outside : inside);
         largest = std::max(largest, error);
@@ -97,10 +96,10 @@ TEST(SampleSource, MirroredSolidsHaveMirroredSamples) {
   for (auto& t : mirrored.triangles) std::swap(t[1], t[2]);
   const Lattice lattice{.origin = Vec3(-3, -3, -2), .voxel = 0.125, .size = {49, 49, 33}};
   const std::vector<double> presence(shape.positions.size(), 0.5);
-  const SourceSamples one = sample_source(lattice, TriangleBvh(shape.positions, shape.triangles),
-                                          shape.triangles, presence, 30 * lattice.voxel);
+  const SourceSamples one =
+      sample_source(lattice, TriangleBvh(shape.positions, shape.triangles), shape.triangles, presence, 30);
   const SourceSamples other = sample_source(lattice, TriangleBvh(mirrored.positions, mirrored.triangles),
-                                            mirrored.triangles, presence, 30 * lattice.voxel);
+                                            mirrored.triangles, presence, 30);
   for (int k = 0; k < 33; ++k)
     for (int j = 0; j < 49; ++j)
       for (int i = 0; i < 49; ++i)

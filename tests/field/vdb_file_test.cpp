@@ -2,6 +2,7 @@
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -44,15 +45,17 @@ TEST(ToVdb, ReadersFindTheGridInItsPlace) {
   for (int k = 0; k < lattice.size[2]; ++k)
     for (int j = 0; j < lattice.size[1]; ++j)
       for (int i = 0; i < lattice.size[0]; ++i)
-        ASSERT_EQ(grid->tree().getValue({i, j, k}), field.values[lattice.index(i, j, k)]);
+        ASSERT_FLOAT_EQ(grid->tree().getValue({i, j, k}),
+                        static_cast<float>(lattice.voxel) * field.values[lattice.index(i, j, k)]);
   const openvdb::Vec3d world = grid->indexToWorld(openvdb::Coord(3, 4, 5));
   EXPECT_TRUE(Vec3(world.x(), world.y(), world.z()).isApprox(lattice.point(3, 4, 5), 1e-14));
 }
 
 TEST(ToVdb, OnlyTheBandIsActive) {
   const DistanceField field = clamped_sphere();
-  std::size_t within = 0;
-  for (const float value : field.values) within += std::abs(value) < 0.3f;
+  const float band = *std::max_element(field.values.begin(), field.values.end());
+  const auto within = static_cast<std::size_t>(std::count_if(
+      field.values.begin(), field.values.end(), [&](float value) { return std::abs(value) < band; }));
   EXPECT_EQ(read_back(to_vdb(field))->activeVoxelCount(), within);
 }
 

@@ -50,16 +50,20 @@ TEST(BuildSiteField, FollowsPresenceAlongTheAxis) {
   EXPECT_NEAR(blended_distance(scene.solids, scene.field, {0, 0, 0}), -0.5 * (host + donor), 1e-3);
 }
 
-// The lattice holds what exact queries answer; on its faces directions are one-sided.
+// The lattice holds what exact queries answer, near the surface; farther away nearly that, since sources are
+// sampled more coarsely there. On its faces directions are one-sided.
 TEST(BuildSiteField, LatticeAgreesWithExactQueries) {
   for (const auto& scene : {testing::tubes_end_to_end(), testing::tube_on_a_box()}) {
     const Lattice& lattice = scene.field.distance.lattice;
     ASSERT_EQ(scene.field.distance.values.size(), lattice.count());
     for (int k = 1; k + 1 < lattice.size[2]; k += 3)
       for (int j = 1; j + 1 < lattice.size[1]; j += 3)
-        for (int i = 1; i + 1 < lattice.size[0]; i += 3)
-          EXPECT_NEAR(scene.field.distance.values[lattice.index(i, j, k)],
-                      blended_distance(scene.solids, scene.field, lattice.point(i, j, k)), 1e-4);
+        for (int i = 1; i + 1 < lattice.size[0]; i += 3) {
+          const double value = scene.field.distance.values[lattice.index(i, j, k)];
+          EXPECT_NEAR(value,
+                      blended_distance(scene.solids, scene.field, lattice.point(i, j, k)) / lattice.voxel,
+                      std::abs(value) < 3 ? 1e-3 : 0.35);
+        }
   }
 }
 

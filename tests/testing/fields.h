@@ -13,7 +13,7 @@ inline DistanceField sampled(const Lattice& lattice, const std::function<double(
   for (int k = 0; k < lattice.size[2]; ++k)
     for (int j = 0; j < lattice.size[1]; ++j)
       for (int i = 0; i < lattice.size[0]; ++i)
-        field.values.push_back(static_cast<float>(f(lattice.point(i, j, k))));
+        field.values.push_back(static_cast<float>(f(lattice.point(i, j, k)) / lattice.voxel));
   return field;
 }
 

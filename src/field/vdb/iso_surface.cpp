@@ -66,7 +66,7 @@ class SurfaceBuilder {
 // result scales with the lattice. One layer of continued values lets the surface run out of the lattice; what
 // OpenVDB closes beyond it is cut off again.
 IsoSurface vdb::extract_iso_surface(const DistanceField& field) {
-  const auto grid = sparse_grid(field, 1, changes_sign);
+  const auto grid = sparse_grid(field, 1, 1, changes_sign);
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec4I> quads;
   openvdb::tools::volumeToMesh(*grid, points, quads, 0.0);

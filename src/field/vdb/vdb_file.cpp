@@ -27,7 +27,7 @@ void blank_identifier(std::string& file) {
 }  // namespace
 
 Bytes vdb::to_vdb(const DistanceField& field) {
-  const auto grid = sparse_grid(field, 0, reaches_band);
+  const auto grid = sparse_grid(field, 0, static_cast<float>(field.lattice.voxel), reaches_band);
   grid->setName("distance");
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
   const auto transform = openvdb::math::Transform::createLinearTransform(field.lattice.voxel);

@@ -13,13 +13,13 @@ constexpr int kBlock = openvdb::FloatTree::LeafNodeType::DIM;
 // Values of the lattice, continued beyond its faces.
 class Values {
  public:
-  explicit Values(const DistanceField& field) : field_(field) {}
+  Values(const DistanceField& field, float unit) : field_(field), unit_(unit) {}
 
   float at(const openvdb::Coord& c) const {
     const auto& size = field_.lattice.size;
-    return field_
-        .values[field_.lattice.index(std::clamp(c.x(), 0, size[0] - 1), std::clamp(c.y(), 0, size[1] - 1),
-                                     std::clamp(c.z(), 0, size[2] - 1))];
+    return unit_ * field_.values[field_.lattice.index(std::clamp(c.x(), 0, size[0] - 1),
+                                                      std::clamp(c.y(), 0, size[1] - 1),
+                                                      std::clamp(c.z(), 0, size[2] - 1))];
   }
 
   std::pair<float, float> extremes(const openvdb::CoordBBox& box) const {
@@ -34,7 +34,14 @@ class Values {
 
  private:
   const DistanceField& field_;
+  float unit_;
 };
+
+float largest_of(const DistanceField& field) {
+  float largest = 1;
+  for (const float value : field.values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
 
 void fill_leaf(openvdb::FloatTree& tree, const Values& values, const openvdb::CoordBBox& block,
                const openvdb::CoordBBox& inside, float background) {
@@ -51,20 +58,14 @@ void fill_leaf(openvdb::FloatTree& tree, const Values& values, const openvdb::Co
 
 }  // namespace
 
-float background_of(const DistanceField& field) {
-  float largest = static_cast<float>(field.lattice.voxel);
-  for (const float value : field.values) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
-openvdb::FloatGrid::Ptr sparse_grid(const DistanceField& field, int padding,
+openvdb::FloatGrid::Ptr sparse_grid(const DistanceField& field, int padding, float unit,
                                     bool (*keep)(float low, float high, float background)) {
   openvdb::initialize();
   SF_EXPECT(field.values.size() == field.lattice.count());
-  const float background = background_of(field);
+  const float background = unit * largest_of(field);
   auto grid = openvdb::FloatGrid::create(background);
   if (field.values.empty()) return grid;
-  const Values values(field);
+  const Values values(field, unit);
   const auto& size = field.lattice.size;
   const openvdb::CoordBBox inside(openvdb::Coord(-padding),
                                   openvdb::Coord(size[0], size[1], size[2]).offsetBy(padding - 1));
