@@ -65,4 +65,9 @@ void report_oddities(const PolygonMesh& mesh, const JointTable& joints, const st
                 fmt::format("all {} joints stand at one place", joints.skeleton.size()));
 }
 
+bool is_oddity(std::string_view code) {
+  return code == "faces-doubled" || code == "joints-flat" || code == "joints-mirrored" ||
+         code == "joints-at-one-place";
+}
+
 }  // namespace skinforge

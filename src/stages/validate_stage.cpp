@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "io/build_character_oddities.h"
 #include "io/import.h"
 #include "stages/inputs.h"
 #include "stages/stages.h"
@@ -43,12 +44,13 @@ class Validate final : public Stage {
   }
 
  private:
-  // What an input has (doubled faces, joints at one place) and was told of goes over into the result.
+  // What an input has and was told of (doubled faces, joints at one place) goes over into the result. What
+  // was repaired there does not: found again, it is ours.
   std::set<std::string> oddities_of_inputs(const StageInput& in) const {
     std::set<std::string> codes;
     for (const std::string& input : inputs_)
       for (const Issue& issue : in.get<std::vector<Issue>>(issues_artifact(names_.imported(input))))
-        codes.insert(issue.code);
+        if (is_oddity(issue.code)) codes.insert(issue.code);
     return codes;
   }
 
