@@ -9,6 +9,7 @@
 #include "cli/output_folder.h"
 #include "cli/session.h"
 #include "io/export.h"
+#include "io/file_kind.h"
 #include "io/gltf_rules.h"
 #include "io/import.h"
 
@@ -27,6 +28,15 @@ std::size_t most_influences(const Character& character) {
   for (std::size_t v = 0; v < character.mesh.vertex_count(); ++v)
     most = std::max(most, character.weights.of(VertexId(v)).size());
   return most;
+}
+
+// Rules that the input breaks. What is written breaks none, so each of them is a repair; those that reading
+// notices are said by it, too, in its own words.
+void add_broken_rules(const std::vector<InputFile>& files, const std::string& place, IssueSink& repairs) {
+  const std::string ending = lower_extension(files.front().path);
+  if (ending != ".glb" && ending != ".gltf") return;
+  for (const GltfFinding& finding : check_gltf(files))
+    repairs.note(finding.code, place + " " + finding.pointer, finding.message);
 }
 
 // What is written must be without fault; if not, the fault is ours.
@@ -54,6 +64,7 @@ ExitCode repair_command(const CommandLine& line, Console& console) {
   OutputFolder folder(path.has_parent_path() ? path.parent_path() : fs::path("."), inputs);
   folder.add(path.filename().string(), glb);
   folder.write();
+  add_broken_rules(files, place, repairs);
   if (most > written)
     repairs.warn("influences-cut", place,
                  fmt::format("vertices follow up to {} joints; the {} strongest are written", most, written));
