@@ -15,7 +15,7 @@ struct StageTiming {
   double wall = 0;
   double cpu = 0;
   std::int64_t peak_memory = 0;
-  std::optional<double> begin;
+  std::optional<double> begin = {};  ///< seconds after the build began; none where that is not known
 };
 
 struct Timings {
