@@ -415,7 +415,9 @@ TEST(BuildCharacter, BrokenScenesAreRefused) {
   };
   RawScene scene = two_joints();
   scene.nodes[1].parent = 2;
-  EXPECT_EQ(message(scene), "x.fbx: node 1: in a cycle, or over 1024 levels deep");
+  EXPECT_EQ(
+      message(scene),
+      "x.fbx: node 1: in a cycle, or too many levels deep, the limit is 1024; --limit depth=N raises it");
   scene = two_joints();
   scene.meshes[0].primitives[0].corners[0] = 6;
   EXPECT_EQ(message(scene), "x.fbx: mesh 0: a face uses vertex 6 of 6");
