@@ -15,8 +15,8 @@ constexpr std::int32_t kFinestAsked = 2;  // smaller cubes would ask as often as
 
 // Voxels between the surface and all of a cube, at least. Ours: source_distance.md says what they cost.
 double least_distance(std::int32_t size, Side side) {
-  if (size == 2) return side == Side::Inside ? 8 : 4;
-  return side == Side::Inside ? 16 : 12;
+  if (size == 2) return side == Side::Inside ? 12 : 6;
+  return side == Side::Inside ? 20 : 16;
 }
 
 std::int32_t floor_to(std::int32_t value, std::int32_t step) {

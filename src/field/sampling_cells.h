@@ -41,7 +41,7 @@ struct SamplingCells {
 };
 
 /// Cuts `lattice`, which must have points, into cubes. Outside of the surface cubes of two cells are at least
-/// 4 voxels away from it, of four 12; inside 8 and 16, because limbs have an axis where distances turn
+/// 6 voxels away from it, of four 16; inside 12 and 20, because limbs have an axis where distances turn
 /// around. The side is that of the winding number above 1/2. Same result for any number of threads.
 SamplingCells sampling_cells(const Lattice& lattice, const TriangleBvh& bvh);
 

@@ -63,7 +63,7 @@ TEST(SampleSource, MatchesQueriesOfEveryPoint) {
 }
 
 // Beyond a few voxels from the surface the corners of larger cubes tell: outside of a ball the distance is
-// off by at most a sixth of a voxel at 4 voxels and 1/(4 * 12) of 4^2 voxels at 12 (the error of a line
+// off by at most a sixth of a voxel at 6 voxels and a quarter at 16 (the error of a line
 // between two points of a cone), inside by more where directions turn around, but only farther than 8 voxels
 // from it.
 TEST(SampleSource, FarFromTheSurfaceItIsNearlyExact) {

@@ -63,7 +63,8 @@ TEST(JsonText, CountsColumnsInCharacters) {
 }
 
 TEST(JsonText, NamesWhatIsWrong) {
-  EXPECT_EQ(json_failure(""), "f.json:1:1: the file is empty");
+  EXPECT_EQ(json_failure(""),
+            "f.json:1:1: the file is empty; a recipe is an object with inputs, a base and ops");
   EXPECT_EQ(json_failure("\n /* x"), "f.json:2:2: this comment has no end");
   EXPECT_EQ(json_failure("{\"a\": 1,\n \"a\": 2}"), "f.json:2:2: duplicate key \"a\" (first at line 1)");
   EXPECT_EQ(json_failure("{\"a\": 1,}"), "f.json:1:9: expected a key in quotes, found \"}\"");
