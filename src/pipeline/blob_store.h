@@ -66,7 +66,8 @@ class MemoryStore final : public BlobStore {
 
 /// A folder on disk. Writes go to a temporary in the same folder, created anew (O_EXCL) as
 /// ".tmp-<process>-<random>", then renamed; no fsync, since readers verify every digest. The folder is made
-/// by the first write, which also removes temporaries older than an hour whose process is gone.
+/// by the first write, which also removes the temporaries of killed processes. Who writes one holds a lock on
+/// it (flock).
 class DiskStore final : public BlobStore {
  public:
   explicit DiskStore(std::filesystem::path root) : root_(std::move(root)) {}
@@ -81,7 +82,8 @@ class DiskStore final : public BlobStore {
   std::vector<Entry> list(const std::string& folder) const override;
 
   const std::filesystem::path& root() const { return root_; }
-  /// Removes stale temporaries of one folder; `age_seconds` as of the file's own time stamp.
+  /// Removes the temporaries of one folder that nobody writes any more: their lock is free. Where the file
+  /// system knows no locks, those older than `age_seconds` by the file's own time stamp.
   void remove_stale_temporaries(const std::string& folder, double age_seconds = 3600) const;
 
  private:

@@ -1,11 +1,11 @@
 #include <fcntl.h>
-#include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <random>
 
@@ -29,7 +29,6 @@ class File {
   File& operator=(const File&) = delete;
   bool is_open() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
-  bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
 
  private:
   int descriptor_;
@@ -69,18 +68,74 @@ std::string temporary_name() {
   return std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-" + std::to_string(digits);
 }
 
-// The process number in a temporary's name; none when it is not one of ours.
-std::optional<pid_t> owner(std::string_view name) {
-  if (!name.starts_with(kTemporaryPrefix)) return std::nullopt;
+// ".tmp-", the number of a process, "-" and more.
+bool is_temporary(std::string_view name) {
+  if (!name.starts_with(kTemporaryPrefix)) return false;
   name.remove_prefix(kTemporaryPrefix.size());
-  pid_t process = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), process);
-  if (error != std::errc() || end == name.data() + name.size() || *end != '-') return std::nullopt;
-  return process;
+  const std::size_t digits =
+      std::find_if_not(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); }) -
+      name.begin();
+  return digits > 0 && digits < name.size() && name[digits] == '-';
 }
 
-bool is_running(pid_t process) {
-  return ::kill(process, 0) == 0 || errno == EPERM;
+double age_seconds_of(const fs::path& path) {
+  std::error_code error;
+  const auto written = fs::last_write_time(path, error);
+  if (error) return 0;
+  return std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count();
+}
+
+// Who writes a temporary holds a lock on it until it has its name, so a free one belongs to nobody: the
+// kernel takes the locks of a killed process back. A process number would say less, being given out again,
+// and anew in every container.
+enum class Lock { Held, Taken, Unknown };
+
+Lock try_lock(int descriptor) {
+  int failed = 0;
+  do failed = ::flock(descriptor, LOCK_EX | LOCK_NB);
+  while (failed != 0 && errno == EINTR);
+  if (failed == 0) return Lock::Held;
+  return errno == EWOULDBLOCK ? Lock::Taken : Lock::Unknown;  // not every file system has locks
+}
+
+// A temporary that is open and locked.
+class Temporary {
+ public:
+  explicit Temporary(const fs::path& folder)
+      : path_(folder / temporary_name()), file_(path_, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644) {
+    is_ours_ = file_.is_open() && try_lock(file_.descriptor()) != Lock::Taken && has_name();
+  }
+
+  bool is_open() const { return file_.is_open(); }
+  /// False when another process took it for left behind before it was locked.
+  bool is_ours() const { return is_ours_; }
+  int descriptor() const { return file_.descriptor(); }
+  const fs::path& path() const { return path_; }
+
+  /// Some file systems tell of a failed write only on closing. The lock goes with the last descriptor.
+  bool close_copy() const {
+    const int copy = ::dup(file_.descriptor());
+    return copy >= 0 && ::close(copy) == 0;
+  }
+
+ private:
+  bool has_name() const {
+    struct stat status {};
+    return ::fstat(file_.descriptor(), &status) == 0 && status.st_nlink > 0;
+  }
+
+  fs::path path_;
+  File file_;
+  bool is_ours_ = false;
+};
+
+// Removes a temporary that nobody writes any more. Where locks are unknown, its age tells.
+void remove_if_left_behind(const fs::path& path, double age_seconds) {
+  const File file(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  if (!file.is_open()) return;
+  const Lock lock = try_lock(file.descriptor());
+  if (lock == Lock::Taken || (lock == Lock::Unknown && age_seconds_of(path) <= age_seconds)) return;
+  ::unlink(path.c_str());
 }
 
 // Brings what was written to disk. Never tried again after a failure: the pages may be gone by then, and the
@@ -99,22 +154,22 @@ bool rename_to(const fs::path& from, const fs::path& to) {
 // Temporary in the same folder, `finish(descriptor)`, rename.
 template <class Finish>
 bool replace_file(const fs::path& path, std::span<const std::byte> bytes, Finish finish) {
-  const fs::path temporary = path.parent_path() / temporary_name();
-  File file(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (!file.is_open()) return false;
-  const bool is_whole = write_all(file.descriptor(), bytes) && finish(file.descriptor()) && file.close();
-  if (is_whole && rename_to(temporary, path)) return true;
-  const int why = errno;
-  ::unlink(temporary.c_str());
-  errno = why;
+  constexpr int kTries = 3;
+  for (int tries = 0; tries < kTries; ++tries) {
+    const Temporary temporary(path.parent_path());
+    if (!temporary.is_open()) return false;
+    errno = EBUSY;
+    if (!temporary.is_ours()) continue;
+    if (write_all(temporary.descriptor(), bytes) && finish(temporary.descriptor()) &&
+        temporary.close_copy() && rename_to(temporary.path(), path))
+      return true;
+    const int why = errno;
+    if (why == ENOENT) continue;  // taken away by a machine that does not see the lock
+    ::unlink(temporary.path().c_str());
+    errno = why;
+    return false;
+  }
   return false;
-}
-
-double age_seconds_of(const fs::path& path) {
-  std::error_code error;
-  const auto written = fs::last_write_time(path, error);
-  if (error) return 0;
-  return std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count();
 }
 }  // namespace
 
@@ -188,7 +243,7 @@ std::vector<BlobStore::Entry> DiskStore::list(const std::string& folder) const {
   for (fs::directory_iterator item(root_ / folder, error), end; !error && item != end;
        item.increment(error)) {
     const std::string name = item->path().filename();
-    if (!owner(name))
+    if (!is_temporary(name))
       found.push_back({name, regular_size(item->path()).value_or(0), age_seconds_of(item->path())});
   }
   std::sort(found.begin(), found.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
@@ -197,14 +252,10 @@ std::vector<BlobStore::Entry> DiskStore::list(const std::string& folder) const {
 
 void DiskStore::remove_stale_temporaries(const std::string& folder, double age_seconds) const {
   std::error_code error;
-  std::vector<fs::path> stale;
-  for (fs::directory_iterator item(root_ / folder, error), end; !error && item != end;
-       item.increment(error)) {
-    const auto process = owner(item->path().filename().string());
-    if (process && !is_running(*process) && age_seconds_of(item->path()) > age_seconds)
-      stale.push_back(item->path());
-  }
-  for (const fs::path& path : stale) fs::remove(path, error);
+  std::vector<fs::path> found;
+  for (fs::directory_iterator item(root_ / folder, error), end; !error && item != end; item.increment(error))
+    if (is_temporary(item->path().filename().string())) found.push_back(item->path());
+  for (const fs::path& path : found) remove_if_left_behind(path, age_seconds);
 }
 
 }  // namespace skinforge

@@ -27,7 +27,8 @@ struct PublishedFile {
 void write_output(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 /// Brings artifacts into `folder` (made if need be): temporary file, on disk before it is renamed,
-/// only where the present bytes differ; what killed builds left half-written is removed when it is an hour old. An output whose artifact is not known (its stage failed) is left out.
+/// only where the present bytes differ; what killed builds left half-written is removed. An output whose
+/// artifact is not known (its stage failed) is left out.
 /// Throws Error: Usage for an unsafe or repeated name, for a name whose folder leads outside `folder` by a
 /// link, and for a file listed in `inputs` (paths that must not be overwritten); StageFailed when a file
 /// cannot be written.

@@ -1,9 +1,11 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <thread>
@@ -16,6 +18,7 @@ namespace skinforge {
 namespace {
 namespace fs = std::filesystem;
 using testing::bytes_of;
+using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using testing::TemporaryFolder;
@@ -29,14 +32,6 @@ std::vector<std::string> files_in(const fs::path& folder) {
 
 void write_text(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
-}
-
-// A process number that is surely not running: a child that has ended and was waited for.
-pid_t ended_process() {
-  const pid_t child = ::fork();
-  if (child == 0) ::_exit(0);
-  ::waitpid(child, nullptr, 0);
-  return child;
 }
 
 TEST(DiskStore, ReadsWhatWasWritten) {
@@ -129,22 +124,35 @@ TEST(DiskStore, MakesItsFoldersAgainWhenTheyGo) {
   EXPECT_TRUE(store.write("cas/x", bytes_of("x")));
 }
 
-TEST(DiskStore, RemovesTemporariesThatAreOldAndWhoseProcessIsGone) {
+// The lock of a temporary is held by who writes it; that the process number in its name is in use says
+// nothing.
+TEST(DiskStore, RemovesTemporariesThatNobodyWrites) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "cas");
-  const std::string gone = std::to_string(ended_process()), running = std::to_string(::getpid());
-  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(2);
-  for (const std::string& name : {".tmp-" + gone + "-1", ".tmp-" + running + "-2", ".tmp-" + gone + "-3"})
+  const std::string prefix = ".tmp-" + std::to_string(::getpid());
+  for (const std::string& name : {prefix + "-1", prefix + "-2", std::string(".tmp-note")})
     write_text(folder / ("cas/" + name), "half");
-  write_text(folder / "cas/.tmp-note", "not ours");
-  for (const auto& item : fs::directory_iterator(folder / "cas"))
-    if (!item.path().string().ends_with("-3")) fs::last_write_time(item.path(), old);
+  const int written = ::open((folder / ("cas/" + prefix + "-2")).c_str(), O_WRONLY | O_CLOEXEC);
+  ASSERT_EQ(::flock(written, LOCK_EX | LOCK_NB), 0);
 
-  DiskStore store(folder.path());
-  store.write("cas/x", bytes_of("x"));
-  std::vector<std::string> expected = {".tmp-" + running + "-2", ".tmp-" + gone + "-3", ".tmp-note", "x"};
-  std::sort(expected.begin(), expected.end());
-  EXPECT_EQ(files_in(folder / "cas"), expected);
+  DiskStore(folder.path()).write("cas/x", bytes_of("x"));
+  EXPECT_THAT(files_in(folder / "cas"), ElementsAre(prefix + "-2", ".tmp-note", "x"));
+  ::close(written);
+  DiskStore(folder.path()).write("cas/x", bytes_of("x"));
+  EXPECT_THAT(files_in(folder / "cas"), ElementsAre(".tmp-note", "x"));
+}
+
+// Who sweeps all the time takes nothing from who writes all the time.
+TEST(DiskStore, SweepingTakesNothingFromWriters) {
+  const TemporaryFolder folder;
+  std::atomic<bool> is_done = false;
+  std::thread sweeper([&] {
+    while (!is_done) DiskStore(folder.path()).remove_stale_temporaries("");
+  });
+  for (int i = 0; i < 2000; ++i) ASSERT_TRUE(write_file_atomically(folder / "x", bytes_of("x"))) << i;
+  is_done = true;
+  sweeper.join();
+  EXPECT_THAT(files_in(folder.path()), ElementsAre("x"));
 }
 
 // A reader that looks all the time never sees anything but one of the two whole contents.
