@@ -52,7 +52,7 @@ Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console&
       console_(console),
       recipe_(read_resolved(recipe)),
       name_(session_name(recipe)),
-      store_(line.cache),
+      store_(line.cache, &digests_),
       cache_(store_),
       progress_(console, events),
       engine_(cache_, {.jobs = line.jobs,
@@ -62,7 +62,9 @@ Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console&
                        .remembers_failure = would_fail_again,
                        .retry_failed = line.retry_failed,
                        .settings = recipe_settings(recipe_),
-                       .reads_setting = reads_setting}) {
+                       .reads_setting = reads_setting,
+                       .digests = &digests_}) {
+  cache_.recall_digests(name_, digests_);
   set_thread_limit(line.jobs);
   if (console.has_status_line()) progress_.expect(last_seconds());
   expect_inputs_under(line.inputs_under);
@@ -147,6 +149,7 @@ void Session::note_usage() {
     (is_hit ? usage.saved_seconds : usage.spent_seconds) += stage.cost.wall_seconds;
   }
   skinforge::note_usage(store_, name_, usage);
+  cache_.keep_digests(name_, digests_);
 }
 
 Timings Session::timings() const {

@@ -64,6 +64,7 @@ class Session {
   Console& console_;
   Recipe recipe_;
   std::string name_;  ///< of its runs in the cache
+  FileDigests digests_;
   DiskStore store_;
   Cache cache_;
   Progress progress_;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/file_digest.h"
 #include "base/hash.h"
 #include "base/issue.h"
 #include "base/limits.h"
@@ -19,13 +20,15 @@ struct InputFile {
 };
 
 /// Reads a whole regular file. Throws Error (BadInput) "PATH: no such file", "PATH: not a regular file", ...
-/// `max_bytes`: larger files are refused with both numbers.
-InputFile read_input_file(const std::string& path, std::size_t max_bytes = limits().file);
+/// `max_bytes`: larger files are refused with both numbers. `digests`: of files that need not be hashed anew;
+/// null: none.
+InputFile read_input_file(const std::string& path, std::size_t max_bytes = limits().file,
+                          FileDigests* digests = nullptr);
 
 /// Everything that importing `path` depends on: the file and, for .gltf/.obj, the buffers and images it names
 /// (inside its own folder only). First the file itself, then the others in order of their first mention.
 /// Cheap: no decoding.
-std::vector<InputFile> read_input_files(const std::string& path);
+std::vector<InputFile> read_input_files(const std::string& path, FileDigests* digests = nullptr);
 
 /// The file as its format has it. glTF/GLB and OFF by readers of our own in this process; FBX, DAE, OBJ and
 /// the rest that Assimp reads by a child process with limits (sandbox.h). `files` as from `read_input_files`.

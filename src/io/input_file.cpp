@@ -1,6 +1,5 @@
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -49,11 +48,9 @@ int open_to_read(const std::string& path) {
   bad(path, std::string("cannot be opened: ") + std::strerror(errno));
 }
 
-std::size_t regular_size(const std::string& path, int number) {
-  struct stat status {};
-  if (::fstat(number, &status) != 0) bad(path, std::string("cannot be read: ") + std::strerror(errno));
-  if (!S_ISREG(status.st_mode)) bad(path, "not a regular file");
-  return static_cast<std::size_t>(status.st_size);
+FileStamp regular_stamp(const std::string& path, int number) {
+  if (const auto stamp = stamp_of(number)) return *stamp;
+  bad(path, "not a regular file");
 }
 
 /// Reads to the end; `expected` is only a guess, the file may have grown.
@@ -149,10 +146,11 @@ void check_inside(const std::string& asset, const std::string& path) {
 }
 
 /// The referenced file; none when it may be absent and is.
-std::optional<InputFile> read_reference(const InputFile& asset, const Reference& reference) {
+std::optional<InputFile> read_reference(const InputFile& asset, const Reference& reference,
+                                        FileDigests* digests) {
   if (!reference.needed && !fs::exists(reference.path)) return std::nullopt;
   check_inside(asset.path, reference.path);
-  return read_input_file(reference.path);
+  return read_input_file(reference.path, limits().file, digests);
 }
 
 bool is_read(const std::vector<InputFile>& files, const std::string& path) {
@@ -161,23 +159,25 @@ bool is_read(const std::vector<InputFile>& files, const std::string& path) {
 
 }  // namespace
 
-InputFile read_input_file(const std::string& path, std::size_t max_bytes) {
+InputFile read_input_file(const std::string& path, std::size_t max_bytes, FileDigests* digests) {
   const Descriptor file(open_to_read(path));
-  const std::size_t size = regular_size(path, file.number());
+  const FileStamp stamp = regular_stamp(path, file.number());
+  const std::size_t size = stamp.size;
   if (size > max_bytes)
     bad(path, fmt::format("{} bytes, the limit is {}; --limit file=N raises it", size, max_bytes));
   InputFile input{path, read_all(path, file.number(), size, max_bytes), {}};
-  input.digest = sha256(input.bytes);
+  const bool is_as_before = digests && stamp_of(file.number()) == stamp && input.bytes.size() == size;
+  input.digest = is_as_before ? digests->of(input.bytes, stamp) : sha256(input.bytes);
   return input;
 }
 
-std::vector<InputFile> read_input_files(const std::string& path) {
-  std::vector<InputFile> files = {read_input_file(path)};
+std::vector<InputFile> read_input_files(const std::string& path, FileDigests* digests) {
+  std::vector<InputFile> files = {read_input_file(path, limits().file, digests)};
   for (std::size_t i = 0; i < files.size(); ++i) {  // a material library found in an OBJ names files itself
     const auto list = with_context(printable(files[i].path), [&] { return references(files[i]); });
     for (const Reference& reference : list) {
       if (is_read(files, reference.path)) continue;
-      auto file = with_context(printable(path), [&] { return read_reference(files[i], reference); });
+      auto file = with_context(printable(path), [&] { return read_reference(files[i], reference, digests); });
       if (file) files.push_back(std::move(*file));
     }
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/archive.h"
+#include "base/file_digest.h"
 #include "base/hash.h"
 
 namespace skinforge {
@@ -70,7 +71,9 @@ class MemoryStore final : public BlobStore {
 /// it (flock).
 class DiskStore final : public BlobStore {
  public:
-  explicit DiskStore(std::filesystem::path root) : root_(std::move(root)) {}
+  /// `digests`: of entries that need not be read anew; must outlive the store.
+  explicit DiskStore(std::filesystem::path root, FileDigests* digests = nullptr)
+      : root_(std::move(root)), digests_(digests) {}
 
   std::optional<Bytes> read(const std::string& path) const override;
   std::optional<std::uint64_t> size(const std::string& path) const override;
@@ -90,6 +93,7 @@ class DiskStore final : public BlobStore {
   void tidy_once(const std::string& folder);
 
   std::filesystem::path root_;
+  FileDigests* digests_;
   std::mutex mutex_;
   std::set<std::string> tidied_;  ///< folders
 };

@@ -142,6 +142,16 @@ void Cache::put_past_run(const std::string& session, const RunRecord& run) {
   store_.write(run_path(kPastRuns, session), bytes_of(text));
 }
 
+void Cache::recall_digests(const std::string& session, FileDigests& digests) {
+  if (const std::optional<Bytes> bytes = store_.read(run_path(kDigests, session)))
+    digests.recall(std::string(text_of(*bytes)));
+}
+
+void Cache::keep_digests(const std::string& session, const FileDigests& digests) {
+  const std::string text = digests.news();
+  if (!text.empty()) store_.write(run_path(kDigests, session), bytes_of(text));
+}
+
 Cache::Stats Cache::stats() {
   Stats stats;
   std::set<Digest> referenced;
@@ -190,7 +200,7 @@ std::vector<std::string> Cache::verify() {
 
 std::uint64_t Cache::clear() {
   std::uint64_t removed = 0;
-  for (const char* folder : {kManifests, kFailures, kRuns, kPastRuns, kPins, kBlobs}) {
+  for (const char* folder : {kManifests, kFailures, kRuns, kPastRuns, kPins, kDigests, kBlobs}) {
     for (const DigestEntry& entry : entries(store_, folder)) {
       store_.remove(entry.path);
       ++removed;

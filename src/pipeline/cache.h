@@ -61,8 +61,8 @@ class Cache {
   /// `store` must outlive the cache.
   explicit Cache(BlobStore& store) : store_(store) {}
 
-  /// The manifest of a key, if it is sound and every blob it names is there with the right bytes: all of them
-  /// are read. They are verified again when they are loaded.
+  /// The manifest of a key, if it is sound and every blob it names is there with the right bytes: by the
+  /// store's `digest`, which need not read a file that did not change. What is loaded is read and verified.
   std::optional<Manifest> find(const Digest& key);
   /// A manifest read for information only (the blobs may be gone).
   std::optional<Manifest> peek(const Digest& key);
@@ -87,6 +87,10 @@ class Cache {
   std::vector<RunRecord> past_runs(const std::string& session);
   void put_past_run(const std::string& session, const RunRecord& run);
   static constexpr std::size_t kMaxPastRuns = 16;  // ours: two weeks of nights
+
+  /// Digests of files that the session before took, and those to keep for the next one.
+  void recall_digests(const std::string& session, FileDigests& digests);
+  void keep_digests(const std::string& session, const FileDigests& digests);
 
   struct StageStats {
     std::uint64_t entries = 0;

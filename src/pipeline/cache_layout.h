@@ -16,6 +16,7 @@ constexpr const char* kRuns = "runs";
 constexpr const char* kPastRuns = "past-runs";
 constexpr const char* kFailures = "failures";
 constexpr const char* kPins = "pins";
+constexpr const char* kDigests = "digests";
 
 struct DigestEntry {
   std::string path;

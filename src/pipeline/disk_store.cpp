@@ -9,7 +9,6 @@
 #include <chrono>
 #include <random>
 
-#include "base/file_digest.h"
 #include "pipeline/blob_store.h"
 
 namespace skinforge {
@@ -201,7 +200,8 @@ std::optional<std::uint64_t> DiskStore::size(const std::string& path) const {
 }
 
 std::optional<Digest> DiskStore::digest(const std::string& path) const {
-  return size(path) ? sha256_of_file(root_ / path) : std::nullopt;
+  if (!size(path)) return std::nullopt;
+  return digests_ ? digests_->of(root_ / path) : sha256_of_file(root_ / path);
 }
 
 bool DiskStore::write(const std::string& path, std::span<const std::byte> bytes) {

@@ -121,6 +121,10 @@ void Engine::put_source(const std::string& name, const Digest& digest, std::uint
   session_->add_source(name, std::make_shared<Artifact>(digest, size, std::move(checked)));
 }
 
+FileDigests& Engine::digests() {
+  return session_->options.digests ? *session_->options.digests : session_->own_digests;
+}
+
 void Engine::add(std::unique_ptr<Stage> stage) {
   session_->add(std::move(stage));
 }

@@ -56,6 +56,7 @@ struct EngineOptions {
   bool retry_failed = false;
   Settings settings = {};           ///< what the person set, for reasons; never part of a key
   ReadsSetting reads_setting = {};  ///< which stage takes which of them into its key
+  FileDigests* digests = nullptr;   ///< null: the engine's own, which know nothing from earlier sessions
 };
 
 /// One build session: takes stages in batches, runs them in the order of their artifacts, from the cache
@@ -80,6 +81,9 @@ class Engine {
   /// changed.
   void put_source(const std::string& name, const Digest& digest, std::uint64_t size,
                   std::function<Bytes()> load);
+
+  /// Digests of files that sources and outputs are made of.
+  FileDigests& digests();
 
   /// Adds stages for the next `run` or `plan`. Each artifact has one maker; a stage may read what earlier
   /// batches made. Throws Error (Internal) when two stages write one artifact.

@@ -36,6 +36,7 @@ struct Engine::Session {
 
   Cache& cache;
   EngineOptions options;
+  FileDigests own_digests;   // where the options bring none
   mutable std::mutex mutex;  // guards artifacts of `slots` and results of `nodes` while stages run
   std::mutex observing;
   std::mutex recording;  // guards `last_run`

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <set>
 
-#include "base/file_digest.h"
 #include "base/safe_name.h"
 #include "base/text.h"
 
@@ -61,11 +60,11 @@ void expect_no_input(const fs::path& path, const std::string& name, std::span<co
 }
 
 // Digest of a regular file of that size; none for anything else.
-std::optional<Digest> digest_of_file(const fs::path& path, std::uint64_t size) {
+std::optional<Digest> digest_of_file(const fs::path& path, std::uint64_t size, FileDigests& digests) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path, error)) || fs::file_size(path, error) != size)
     return std::nullopt;
-  return sha256_of_file(path);
+  return digests.of(path);
 }
 }  // namespace
 
@@ -88,7 +87,7 @@ std::vector<PublishedFile> publish(Engine& engine, std::span<const OutputFile> f
     const fs::path path = path_inside(root, file.name);
     expect_no_input(path, file.name, inputs);
     PublishedFile result{file.name, engine.digest(file.artifact), engine.size(file.artifact)};
-    result.was_written = digest_of_file(path, result.size) != result.digest;
+    result.was_written = digest_of_file(path, result.size, engine.digests()) != result.digest;
     if (result.was_written && !write_file_durably(path, engine.bytes(file.artifact))) cannot_write(path);
     folders.insert(path.parent_path());
     if (result.was_written) changed.insert(path.parent_path());

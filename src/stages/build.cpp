@@ -22,7 +22,7 @@ ArtifactNames nested_names(const ArtifactNames& names, const std::string& input)
 std::vector<std::string> add_files(Engine& engine, const ArtifactNames& names, const std::string& input,
                                    const RecipePath& path, std::size_t& next) {
   std::vector<std::string> file_names;
-  for (InputFile& file : read_input_files(path.resolved.string())) {
+  for (InputFile& file : read_input_files(path.resolved.string(), &engine.digests())) {
     file_names.push_back(file_names.empty() ? path.resolved.filename().string()
                                             : std::filesystem::path(file.path).filename().string());
     auto bytes = std::make_shared<const Bytes>(std::move(file.bytes));

@@ -149,7 +149,7 @@ TEST(DiskStore, SweepingTakesNothingFromWriters) {
   std::thread sweeper([&] {
     while (!is_done) DiskStore(folder.path()).remove_stale_temporaries("");
   });
-  for (int i = 0; i < 2000; ++i) ASSERT_TRUE(write_file_atomically(folder / "x", bytes_of("x"))) << i;
+  for (int i = 0; i < 500; ++i) ASSERT_TRUE(write_file_atomically(folder / "x", bytes_of("x"))) << i;
   is_done = true;
   sweeper.join();
   EXPECT_THAT(files_in(folder.path()), ElementsAre("x"));
