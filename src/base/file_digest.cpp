@@ -1,7 +1,6 @@
 #include "base/file_digest.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -9,6 +8,7 @@
 #include <sstream>
 
 #include "base/expect.h"
+#include "base/sha256_algorithm.h"
 
 namespace skinforge {
 
@@ -37,7 +37,7 @@ std::string digest_of_text(std::string_view text) {
 
 std::optional<Digest> sha256_of_file(const std::filesystem::path& path) {
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
-  SF_EXPECT(context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1);
+  SF_EXPECT(context && EVP_DigestInit_ex(context.get(), sha256_algorithm(), nullptr) == 1);
   std::ifstream file;
   std::array<char, 1 << 16> piece;
   file.rdbuf()->pubsetbuf(nullptr, 0);  // `piece` is the buffer

@@ -292,6 +292,13 @@ class Parser {
         ->add_flag("--retry-failed", line_.retry_failed,
                    "Run stages again that failed before with the same inputs and parameters")
         ->group("Recipes");
+    build
+        ->add_option("--memory", line_.memory_gb,
+                     "Start no stage beside another while the program holds more than this")
+        ->check(CLI::Range(0.0, 1e6).description(""))
+        ->type_name("GB")
+        ->default_str("any")
+        ->group("Cache and speed");
     build->add_option("--events", line_.events, "Write what happens as it happens, one JSON object a line")
         ->type_name("FILE")
         ->group("CI");

@@ -95,6 +95,7 @@ struct CommandLine {
   bool retry_failed = false;          ///< run again what failed before with the same key
   std::string junit, sarif, summary;  ///< build: files; empty: none
   double max_age_days = 0;            ///< cache gc; 0: any
+  double memory_gb = 0;               ///< build; 0: any
   double max_size_gb = 0;             ///< cache gc; 0: any
   Limits limits;                      ///< --limit
   bool preview = false;               ///< build: parts side by side, at once

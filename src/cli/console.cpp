@@ -53,23 +53,38 @@ Console::~Console() {
 }
 
 void Console::detail(const std::string& text) {
-  clear_status();
-  logger_->debug(text);
+  say(spdlog::level::debug, text);
 }
 
 void Console::info(const std::string& text) {
-  clear_status();
-  logger_->info(text);
+  say(spdlog::level::info, text);
 }
 
 void Console::warn(const std::string& text) {
-  clear_status();
-  logger_->warn("warning: " + text);
+  say(spdlog::level::warn, "warning: " + text);
 }
 
 void Console::error(const std::string& text) {
+  say(spdlog::level::err, "error: " + text);
+}
+
+void Console::say(int level, const std::string& text) {
+  if (is_holding_) {
+    held_.push_back({level, text});
+    return;
+  }
   clear_status();
-  logger_->error("error: " + text);
+  logger_->log(static_cast<spdlog::level::level_enum>(level), text);
+}
+
+void Console::hold() {
+  is_holding_ = true;
+  has_status_line_ = false;
+}
+
+void Console::release() {
+  is_holding_ = false;
+  for (const Line& line : std::exchange(held_, {})) say(line.level, line.text);
 }
 
 void Console::issue(const Issue& issue) {

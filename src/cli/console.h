@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/issue.h"
 
@@ -28,13 +29,26 @@ class Console {
   /// "warning: man.fbx: 3 weights were not finite [weights-repaired]"; notes are details.
   void issue(const Issue& issue);
 
+  /// Keeps back what is said from now on, for one of several that talk at a time; there is no status line
+  /// then. `release` says it.
+  void hold();
+  void release();
+
   bool has_status_line() const { return has_status_line_; }
   /// Shows a line that the next one replaces; nothing where there is no status line. Empty: takes it away.
   void status(const std::string& text);
 
  private:
+  void say(int level, const std::string& text);
   void clear_status();
+
+  struct Line {
+    int level;  // of spdlog
+    std::string text;
+  };
   std::shared_ptr<spdlog::logger> logger_;
+  std::vector<Line> held_;
+  bool is_holding_ = false;
   bool has_status_line_ = false;
   bool is_status_shown_ = false;
 };

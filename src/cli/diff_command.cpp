@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "base/parallel.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/diff_page.h"
@@ -85,7 +84,7 @@ std::string junit_of(const std::vector<DiffFinding>& findings) {
 void accept(const DiffRequest& request, const Bytes& bytes, const std::string& text, Console& console) {
   const std::string note =
       fmt::format("# {} was accepted in the place of {}\n\n```\n{}```\n", request.b, request.a, text);
-  write_output(request.a + ".change.md", std::as_bytes(std::span(note)));
+  write_output(request.a + ".change.md", note);
   write_output(request.a, bytes);
   console.info(request.a + ": accepted; what changed is in " + request.a + ".change.md");
 }
@@ -93,7 +92,6 @@ void accept(const DiffRequest& request, const Bytes& bytes, const std::string& t
 
 ExitCode diff_command(const CommandLine& line, Console& console) {
   const DiffRequest& request = line.diff;
-  set_thread_limit(line.jobs);
   const DiffThresholds thresholds = thresholds_of(request.thresholds);
   const Side a = read_side(request.a, console), b = read_side(request.b, console);
   const CharacterDiff diff = compare_characters(a.character, b.character, a.bytes.size(), b.bytes.size());
@@ -101,11 +99,11 @@ ExitCode diff_command(const CommandLine& line, Console& console) {
   const std::string text = to_text(diff, findings);
   if (!request.junit.empty()) {
     const std::string xml = junit_of(findings);
-    write_output(request.junit, std::as_bytes(std::span(xml)));
+    write_output(request.junit, xml);
   }
   if (!request.html.empty()) {
     const std::string page = diff_page(request, a.character, b.character, diff, findings);
-    write_output(request.html, std::as_bytes(std::span(page)));
+    write_output(request.html, page);
     console.info(request.html + " (" + readable_size(page.size()) + ")");
   }
   if (request.accept) accept(request, b.bytes, text, console);

@@ -23,8 +23,6 @@ void EventStream::write(const char* event, json more) {
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
   const std::lock_guard lock(mutex_);
   json line = {{"event", event}, {"time", time.count()}};
-  if (!recipe_.empty()) line["recipe"] = recipe_;
-  if (!variant_.empty()) line["variant"] = variant_;
   line.update(more);
   const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   std::fputs(text.c_str(), file_);
@@ -35,21 +33,26 @@ void EventStream::build_started(std::size_t recipes) {
   write("build-started", {{"recipes", recipes}, {"version", kVersion}});
 }
 
-void EventStream::recipe_started(const std::string& recipe, const std::string& variant) {
-  {
-    const std::lock_guard lock(mutex_);
-    recipe_ = recipe;
-    variant_ = variant;
-  }
+void EventStream::build_finished(ExitCode code) {
+  write("build-finished", {{"exit_code", static_cast<int>(code)}});
+}
+
+void RecipeEvents::write(const char* event, json more) {
+  more["recipe"] = recipe_;
+  if (!variant_.empty()) more["variant"] = variant_;
+  stream_.write(event, std::move(more));
+}
+
+void RecipeEvents::started() {
   write("recipe-started", json::object());
 }
 
-void EventStream::stage_started(const StageInfo& stage) {
+void RecipeEvents::stage_started(const StageInfo& stage) {
   write("stage-started", {{"stage", stage.label()}});
 }
 
-void EventStream::stage_finished(const StageResult& stage) {
-  if (!file_) return;
+void RecipeEvents::stage_finished(const StageResult& stage) {
+  if (!stream_.file_) return;
   json more = {{"stage", stage.info.label()},
                {"status", status_name(stage.status)},
                {"wall_seconds", stage.cost.wall_seconds},
@@ -60,18 +63,11 @@ void EventStream::stage_finished(const StageResult& stage) {
   write("stage-finished", std::move(more));
 }
 
-void EventStream::recipe_finished(const std::string& name, ExitCode code, const std::string& error,
-                                  double seconds) {
+void RecipeEvents::finished(const std::string& name, ExitCode code, const std::string& error,
+                            double seconds) {
   json more = {{"name", name}, {"exit_code", static_cast<int>(code)}, {"seconds", seconds}};
   if (!error.empty()) more["error"] = error;
   write("recipe-finished", std::move(more));
-  const std::lock_guard lock(mutex_);
-  recipe_.clear();
-  variant_.clear();
-}
-
-void EventStream::build_finished(ExitCode code) {
-  write("build-finished", {{"exit_code", static_cast<int>(code)}});
 }
 
 }  // namespace skinforge

@@ -10,14 +10,14 @@
 
 namespace skinforge {
 
-class EventStream;
+class RecipeEvents;
 
 /// Tells how a build goes: a bar on terminals, one line for each stage that ran elsewhere. Warnings of stages
 /// come as they end.
 class Progress final : public EngineObserver {
  public:
   /// `events` may be null.
-  Progress(Console& console, EventStream* events) : console_(console), events_(events) {}
+  Progress(Console& console, RecipeEvents* events) : console_(console), events_(events) {}
 
   /// Stages known so far; the bar is drawn against it.
   void set_total(std::size_t stages) { total_ = stages; }
@@ -35,7 +35,7 @@ class Progress final : public EngineObserver {
   std::string time_left() const;
 
   Console& console_;
-  EventStream* events_;
+  RecipeEvents* events_;
   std::size_t total_ = 0;
   std::size_t done_ = 0;
   std::set<std::string> running_;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/parallel.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "io/sandbox.h"
@@ -95,6 +96,7 @@ int run_command(const std::vector<std::string>& arguments) {
     const CommandLine line = parse_command_line(arguments);
     wants_json = line.json;
     set_limits(line.limits);
+    set_thread_limit(line.jobs);
     Console console(line.verbosity);
     return static_cast<int>(command_of(line.verb)(line, console));
   } catch (const Error& error) {

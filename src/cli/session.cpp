@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/parallel.h"
 #include "base/text.h"
 #include "cli/build_id.h"
 #include "pipeline/cache_usage.h"
@@ -47,7 +46,8 @@ const char* status_name(StageStatus status) {
   return "";
 }
 
-Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console& console, EventStream* events)
+Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console& console,
+                 RecipeEvents* events, WorkShare* share)
     : line_(line),
       console_(console),
       recipe_(read_resolved(recipe)),
@@ -63,9 +63,9 @@ Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console&
                        .retry_failed = line.retry_failed,
                        .settings = recipe_settings(recipe_),
                        .reads_setting = reads_setting,
+                       .share = share,
                        .digests = &digests_}) {
   cache_.recall_digests(name_, digests_);
-  set_thread_limit(line.jobs);
   if (console.has_status_line()) progress_.expect(last_seconds());
   expect_inputs_under(line.inputs_under);
 }

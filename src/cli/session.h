@@ -18,10 +18,11 @@ namespace skinforge {
 /// One recipe on its way through an engine, with cache and progress as the command line wants them.
 class Session {
  public:
-  /// Reads the recipe. `events` may be null. Throws Error like `load_recipe`.
-  /// Throws Error (Usage) also for an input that --inputs-under forbids; nothing has been read of it then.
+  /// Reads the recipe. `events` and `share` (with other sessions) may be null. Throws Error like
+  /// `load_recipe`. Throws Error (Usage) also for an input that --inputs-under forbids; nothing has been read
+  /// of it then.
   Session(const CommandLine& line, const ResolvedRecipe& recipe, Console& console,
-          EventStream* events = nullptr);
+          RecipeEvents* events = nullptr, WorkShare* share = nullptr);
 
   const Recipe& recipe() const { return recipe_; }
   Engine& engine() { return engine_; }

@@ -172,7 +172,8 @@ InputFile read_input_file(const std::string& path, std::size_t max_bytes, FileDi
 }
 
 std::vector<InputFile> read_input_files(const std::string& path, FileDigests* digests) {
-  std::vector<InputFile> files = {read_input_file(path, limits().file, digests)};
+  std::vector<InputFile> files;
+  files.push_back(read_input_file(path, limits().file, digests));
   for (std::size_t i = 0; i < files.size(); ++i) {  // a material library found in an OBJ names files itself
     const auto list = with_context(printable(files[i].path), [&] { return references(files[i]); });
     for (const Reference& reference : list) {

@@ -153,7 +153,7 @@ bool rename_to(const fs::path& from, const fs::path& to) {
 // Temporary in the same folder, `finish(descriptor)`, rename.
 template <class Finish>
 bool replace_file(const fs::path& path, std::span<const std::byte> bytes, Finish finish) {
-  constexpr int kTries = 3;
+  constexpr int kTries = 20;  // ours: a sweep that meets each one just before its lock is no sweep
   for (int tries = 0; tries < kTries; ++tries) {
     const Temporary temporary(path.parent_path());
     if (!temporary.is_open()) return false;

@@ -37,6 +37,8 @@ struct StagePlan {
   std::vector<KeyChange> changes;  ///< since the last run of the session, even where the stage is a hit
 };
 
+class WorkShare;
+
 /// Told as stages start and finish; one call at a time, from any thread.
 class EngineObserver {
  public:
@@ -56,6 +58,7 @@ struct EngineOptions {
   bool retry_failed = false;
   Settings settings = {};           ///< what the person set, for reasons; never part of a key
   ReadsSetting reads_setting = {};  ///< which stage takes which of them into its key
+  WorkShare* share = nullptr;       ///< with other engines; null: works alone
   FileDigests* digests = nullptr;   ///< null: the engine's own, which know nothing from earlier sessions
 };
 

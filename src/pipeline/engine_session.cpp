@@ -2,6 +2,7 @@
 
 #include "base/expect.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/work_share.h"
 
 namespace skinforge {
 
@@ -91,6 +92,8 @@ std::vector<std::shared_ptr<Artifact>> Engine::Session::execute(Node& node, Issu
   }
   const StageInput in(std::move(inputs));
   StageOutput out(node.info);
+  std::optional<WorkShare::Held> turn;
+  if (options.share) turn.emplace(options.share->take_turn());
   const Stopwatch watch(options.jobs == 1);
   node.stage->run(in, out, issues);
   cost = watch.cost();
@@ -180,6 +183,11 @@ void Engine::Session::process(Node& node) {
   compute_key(node);
   node.result.key = node.key.digest;
   if (const auto manifest = cache.find(node.key.digest)) return adopt(node, *manifest);
+  std::optional<WorkShare::Held> claim;
+  if (options.share) {
+    claim.emplace(options.share->claim(node.key.digest));
+    if (const auto manifest = cache.find(node.key.digest)) return adopt(node, *manifest);  // made meanwhile
+  }
 
   if (const auto failure = remembered_failure(node)) {
     node.result.is_remembered = true;

@@ -72,6 +72,10 @@ void write_output(const fs::path& path, std::span<const std::byte> bytes) {
   if (!write_file_durably(path, bytes) || !sync_folder(path.parent_path())) cannot_write(path);
 }
 
+void write_output(const fs::path& path, std::string_view text) {
+  write_output(path, std::as_bytes(std::span(text)));
+}
+
 std::vector<PublishedFile> publish(Engine& engine, std::span<const OutputFile> files, const fs::path& folder,
                                    std::span<const fs::path> inputs) {
   expect_names(files);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/engine.h"
@@ -25,6 +26,7 @@ struct PublishedFile {
 /// Writes one output file so that it is there whole, after a power cut too, or as it was before. Throws Error
 /// (StageFailed) "PATH: cannot be written: No space left on device".
 void write_output(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void write_output(const std::filesystem::path& path, std::string_view text);
 
 /// Brings artifacts into `folder` (made if need be): temporary file, on disk before it is renamed,
 /// only where the present bytes differ; what killed builds left half-written is removed. An output whose
