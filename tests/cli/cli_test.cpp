@@ -270,6 +270,32 @@ TEST_F(Cli, FoldersAreTheRecipesInThem) {
   EXPECT_THAT(origins.at("/base").get<std::string>(), StartsWith("many/b.json:1:"));
 }
 
+// Recipes are built side by side; what they say comes in their order all the same.
+TEST_F(Cli, SeveralRecipesSpeakInTheirOrder) {
+  const std::string input = testing::repository_file("data/human.obj");
+  fs::copy_file(input, folder / "human.obj");
+  std::vector<std::string> arguments = {"build",    "--cache", "cache", "--out", "out",
+                                        "--report", "none",    "-j",    "3"};
+  for (const char* name : {"e", "b", "d", "a", "c"}) {
+    write(name + std::string(".json"), R"({ "recipe_version": 1, "name": ")" + std::string(name) +
+                                           R"(", "inputs": { "h": "human.obj" }, "base": "h", "ops": [] })");
+    arguments.push_back(name + std::string(".json"));
+  }
+  const ProgramResult result = call(arguments);
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, ::testing::ContainsRegex("e: .*b: .*d: .*a: .*c: .* stages"));
+}
+
+TEST_F(Cli, TwoRecipesOfOneNameAreRefused) {
+  for (const char* file : {"a.json", "b.json"})
+    write(file,
+          R"({ "recipe_version": 1, "name": "x", "inputs": { "h": "none.obj" }, "base": "h", "ops": [] })");
+  const ProgramResult result = call({"build", "a.json", "b.json", "-k", "--cache", "cache"});
+  EXPECT_EQ(result.status, 6);
+  EXPECT_THAT(result.err, HasSubstr("b.json:1:"));
+  EXPECT_THAT(result.err, HasSubstr("a.json is called \"x\", too"));
+}
+
 TEST_F(Cli, CacheGcAndPins) {
   EXPECT_EQ(call({"cache", "gc", "--cache", "cache"}).status, 2);
   const ProgramResult gc = call({"cache", "gc", "--cache", "cache", "--max-age", "7", "--json"});
