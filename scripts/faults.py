@@ -15,7 +15,7 @@
     descriptors  3 to 40 open files
     clock        files of 1970 and of 2099
     sweep        kills or fails each file-system call in turn, cold (tools/crash_sweep.sh of SKINFORGE_SHARED)
-    sweep-warm   the same from a warm cache
+    sweep-warm   the same from a warm cache; --faults names other faults than kill,ENOSPC,ENOSPC+,EIO,EIO+,EINTR
 
 What must hold: right bytes or a clear error, never a torn file, and the next build is right. Exit: 0 all held, 1 not.
 """
@@ -40,7 +40,7 @@ def sweep(args, warm):
     if not tool.exists():
         raise SystemExit(f"no {tool}: set SKINFORGE_SHARED")
     command = f"{args.program} build {args.recipe} --report {args.report} -j 1 --cache {{cache}} --out {{out}}"
-    words = ["bash", tool, "-m", str(args.rounds or 1000), "-f", FAULTS, "-x", "timings.json", *(["-w"] if warm else [])]
+    words = ["bash", tool, "-m", str(args.rounds or 1000), "-f", args.faults, "-x", "timings.json", *(["-w"] if warm else [])]
     return subprocess.run([*words, command], cwd=ROOT).returncode
 
 
@@ -63,6 +63,7 @@ def main():
     parser.add_argument("--program", default=ROOT / "build/release/skinforge")
     parser.add_argument("--recipe", default=ROOT / "recipes/tail.json")
     parser.add_argument("--report", default="json", choices=["none", "json", "full"])
+    parser.add_argument("--faults", default=FAULTS)
     parser.add_argument("--rounds", type=int)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("-j", "--jobs", type=int, default=1)

@@ -42,14 +42,17 @@ seeds dae dae
 seeds fbx fbx
 seeds image png jpg
 mkdir -p build/fuzz/seeds/{scene,cache} build/fuzz/findings
-find data "$shared/hostile" -type f \( -name '*.glb' -o -name '*.fbx' -o -name '*.obj' -o -name '*.dae' \) -size -100k -exec cp -f {} build/fuzz/seeds/scene/ \;
+find data "$shared/hostile" -type f \( -name '*.glb' -o -name '*.fbx' -o -name '*.obj' -o -name '*.dae' \) -size -100k -exec cp -f {} build/fuzz/seeds/scene/ \; || true
 (cd build/fuzz/seeds/scene && SKINFORGE_FUZZ_TARGET=seeds "$fuzzer" -- * && find . -type f ! -name '*.scene' -delete)
-for kind in ac cas runs; do
-  find .skinforge/cache/$kind -type f -size -50k -print 2>/dev/null | head -40 |
-    while read -r file; do { printf a; cat "$file"; } >"build/fuzz/seeds/cache/$(basename "$file")"; done
-done
-find build/fuzz/seeds/cache -type f | while read -r file; do # manifests without their header
-  { printf b; tail -n +2 "$file"; } >"$file.json"
+# Entries of a cache: of one that a build left, with and without their header.
+cache=build/fuzz/cache
+if [ -x build/release/skinforge ] && [ ! -d $cache ]; then
+  build/release/skinforge build recipes/tail.json --report none --cache $cache --out build/fuzz/out >/dev/null 2>&1 || true
+fi
+mkdir -p $cache
+find $cache -type f -size -50k | sort | head -60 | while read -r file; do
+  { printf a; cat "$file"; } >"build/fuzz/seeds/cache/$(basename "$file")"
+  { printf b; tail -n +2 "$file"; } >"build/fuzz/seeds/cache/$(basename "$file").json"
 done
 
 failed=0

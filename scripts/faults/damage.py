@@ -1,4 +1,5 @@
 """Damage to a warm cache: it must be noticed, never believed, and mended."""
+import os
 import pathlib
 import shutil
 
@@ -46,6 +47,11 @@ def swap(path, random, all_entries):
     other.write_bytes(data)
 
 
+def stretch(path, _random, _all):
+    """A hole of a terabyte: no disk space, but more than any memory holds."""
+    os.truncate(path, 1 << 40)
+
+
 def folder(path, _random, _all):
     path.unlink()
     (path / "inside").mkdir(parents=True)
@@ -61,7 +67,7 @@ def delete(path, _random, _all):
     path.unlink()
 
 
-KINDS = (flip, cut, empty, lengthen, blank, swap, folder, link, delete)
+KINDS = (flip, cut, empty, lengthen, blank, swap, stretch, folder, link, delete)
 
 
 def one(lab, path, kind, random, what):

@@ -5,7 +5,7 @@ import pathlib
 import shutil
 import subprocess
 
-TEMPORARY = ".tmp-"
+TEMPORARY = ".skinforge-"
 
 
 @dataclasses.dataclass

@@ -66,9 +66,9 @@ class MemoryStore final : public BlobStore {
 };
 
 /// A folder on disk. Writes go to a temporary in the same folder, created anew (O_EXCL) as
-/// ".tmp-<process>-<random>", then renamed; no fsync, since readers verify every digest. The folder is made
-/// by the first write, which also removes the temporaries of killed processes. Who writes one holds a lock on
-/// it (flock).
+/// ".skinforge-<process>-<random>", then renamed; no fsync, since readers verify every digest. The folder is
+/// made by the first write, which also removes the temporaries of killed processes. Who writes one holds a
+/// lock on it (flock).
 class DiskStore final : public BlobStore {
  public:
   /// `digests`: of entries that need not be read anew; must outlive the store.

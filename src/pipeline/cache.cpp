@@ -16,13 +16,13 @@ namespace skinforge {
 using namespace cache_layout;
 
 std::optional<Manifest> Cache::peek(const Digest& key) {
-  const std::optional<Bytes> bytes = store_.read(path_of(kManifests, key));
+  const std::optional<Bytes> bytes = read_record(store_, path_of(kManifests, key));
   return bytes ? parse_manifest(text_of(*bytes), key) : std::nullopt;
 }
 
 std::optional<Manifest> Cache::find(const Digest& key) {
   const std::string path = path_of(kManifests, key);
-  const std::optional<Bytes> bytes = store_.read(path);
+  const std::optional<Bytes> bytes = read_record(store_, path);
   if (!bytes && !store_.is_there(path)) return std::nullopt;
   std::optional<Manifest> manifest = bytes ? parse_manifest(text_of(*bytes), key) : std::nullopt;
   if (!manifest) {
@@ -39,9 +39,9 @@ std::optional<Manifest> Cache::find(const Digest& key) {
 // False, with a warning, when a result that the manifest names is not there with its bytes.
 bool Cache::check_blob(const Manifest& manifest, const Manifest::Output& output) {
   const std::string path = path_of(kBlobs, output.digest);
-  const auto digest = store_.digest(path);
-  if (digest == output.digest) return true;
-  if (digest)
+  const auto size = store_.size(path);
+  if (size == output.size && store_.digest(path) == output.digest) return true;
+  if (size)
     warn("cache-blob-damaged", path,
          fmt::format("a damaged result in the cache was set aside; stage {} runs again", manifest.stage));
   else
@@ -89,7 +89,7 @@ void Cache::put(const Manifest& manifest) {
 }
 
 std::optional<StoredFailure> Cache::failure(const Digest& key) {
-  const std::optional<Bytes> bytes = store_.read(path_of(kFailures, key));
+  const std::optional<Bytes> bytes = read_record(store_, path_of(kFailures, key));
   if (!bytes) return std::nullopt;
   // "<sha256 of the rest>\n<exit status>\n<message>"
   const std::string_view text = text_of(*bytes);
@@ -112,7 +112,7 @@ void Cache::forget_failure(const Digest& key) {
 }
 
 RunRecord Cache::last_run(const std::string& session) {
-  const std::optional<Bytes> bytes = store_.read(run_path(kRuns, session));
+  const std::optional<Bytes> bytes = read_record(store_, run_path(kRuns, session));
   if (!bytes) return {};
   return parse_run_record(text_of(*bytes)).value_or(RunRecord());  // a damaged record only costs the reasons
 }
@@ -123,7 +123,7 @@ void Cache::put_last_run(const std::string& session, const RunRecord& run) {
 
 std::vector<RunRecord> Cache::past_runs(const std::string& session) {
   std::vector<RunRecord> runs;
-  const std::optional<Bytes> bytes = store_.read(run_path(kPastRuns, session));
+  const std::optional<Bytes> bytes = read_record(store_, run_path(kPastRuns, session));
   if (!bytes) return runs;
   std::istringstream lines{std::string(text_of(*bytes))};
   for (std::string line; std::getline(lines, line);)
@@ -185,8 +185,7 @@ std::vector<std::string> Cache::verify() {
     store_.remove(path);
   };
   for (const DigestEntry& entry : entries(store_, kBlobs)) {
-    const auto bytes = store_.read(entry.path);
-    if (!bytes || sha256(*bytes) != entry.digest) set_aside(entry.path, "content does not match its name");
+    if (store_.digest(entry.path) != entry.digest) set_aside(entry.path, "content does not match its name");
   }
   for (const DigestEntry& entry : entries(store_, kManifests)) {
     const auto manifest = peek(entry.digest);

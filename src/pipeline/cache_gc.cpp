@@ -44,7 +44,7 @@ class Usage {
 std::set<Digest> Cache::pinned_keys() {
   std::set<Digest> keys;
   for (const auto& entry : cache_layout::entries(store_, cache_layout::kPins)) {
-    const auto bytes = store_.read(entry.path);
+    const auto bytes = cache_layout::read_record(store_, entry.path);
     const auto run = bytes ? parse_run_record(cache_layout::text_of(*bytes)) : std::nullopt;
     if (!run) continue;
     for (const auto& [label, stage] : run->stages) keys.insert(stage.key);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +37,15 @@ inline std::string_view text_of(const Bytes& bytes) {
 
 inline std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text));
+}
+
+/// A manifest or another record: all of them are small. None when there is no such entry, it cannot be read,
+/// or a damaged disk gives it a size that no record has.
+inline std::optional<Bytes> read_record(const BlobStore& store, const std::string& path) {
+  constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{64}
+                                            << 20;  // ours: a thousand times the largest seen
+  const auto size = store.size(path);
+  return size && *size <= kMaxRecordBytes ? store.read(path) : std::nullopt;
 }
 
 /// Where something about a session is kept.

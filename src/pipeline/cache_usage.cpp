@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kUsage = "usage";
 
 CacheUsage read_usage(const BlobStore& store, const std::string& path) {
-  const std::optional<Bytes> bytes = store.read(path);
+  const std::optional<Bytes> bytes = read_record(store, path);
   const json document = bytes ? json::parse(text_of(*bytes), nullptr, false) : json();
   CacheUsage usage;
   if (!document.is_object()) return usage;

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <random>
@@ -15,14 +14,16 @@ namespace skinforge {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr std::string_view kTemporaryPrefix = ".tmp-";
+constexpr std::string_view kTemporaryPrefix = ".skinforge-";  // no other program's: they are removed
 
 // A file descriptor that closes itself.
 class File {
  public:
   File(const fs::path& path, int flags, mode_t mode = 0) : descriptor_(::open(path.c_str(), flags, mode)) {}
   ~File() {
+    const int why = errno;  // of what failed before
     if (descriptor_ >= 0) ::close(descriptor_);
+    errno = why;
   }
   File(const File&) = delete;
   File& operator=(const File&) = delete;
@@ -67,14 +68,15 @@ std::string temporary_name() {
   return std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-" + std::to_string(digits);
 }
 
-// ".tmp-", the number of a process, "-" and more.
+// The prefix, the number of a process, "-" and a number.
 bool is_temporary(std::string_view name) {
   if (!name.starts_with(kTemporaryPrefix)) return false;
   name.remove_prefix(kTemporaryPrefix.size());
-  const std::size_t digits =
-      std::find_if_not(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); }) -
-      name.begin();
-  return digits > 0 && digits < name.size() && name[digits] == '-';
+  const std::size_t dash = std::min(name.find('-'), name.size());
+  const auto is_number = [](std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  return is_number(name.substr(0, dash)) && is_number(name.substr(std::min(dash + 1, name.size())));
 }
 
 double age_seconds_of(const fs::path& path) {
@@ -97,35 +99,49 @@ Lock try_lock(int descriptor) {
   return errno == EWOULDBLOCK ? Lock::Taken : Lock::Unknown;  // not every file system has locks
 }
 
-// A temporary that is open and locked.
+bool rename_file(const fs::path& from, const fs::path& to) {
+  int failed = 0;
+  do failed = ::rename(from.c_str(), to.c_str());
+  while (failed != 0 && errno == EINTR);  // file systems in user space may be interrupted
+  return failed == 0;
+}
+
+// A temporary that is open and locked. It goes with this object unless it got its name.
 class Temporary {
  public:
   explicit Temporary(const fs::path& folder)
       : path_(folder / temporary_name()), file_(path_, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644) {
-    is_ours_ = file_.is_open() && try_lock(file_.descriptor()) != Lock::Taken && has_name();
+    is_ours_ = file_.is_open() && try_lock(file_.descriptor()) != Lock::Taken && is_named();
   }
+  ~Temporary() {
+    const int why = errno;
+    if (file_.is_open() && !is_renamed_) ::unlink(path_.c_str());
+    errno = why;
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
 
   bool is_open() const { return file_.is_open(); }
   /// False when another process took it for left behind before it was locked.
   bool is_ours() const { return is_ours_; }
   int descriptor() const { return file_.descriptor(); }
-  const fs::path& path() const { return path_; }
 
   /// Some file systems tell of a failed write only on closing. The lock goes with the last descriptor.
   bool close_copy() const {
     const int copy = ::dup(file_.descriptor());
     return copy >= 0 && ::close(copy) == 0;
   }
+  bool rename_to(const fs::path& path) { return is_renamed_ = rename_file(path_, path); }
 
  private:
-  bool has_name() const {
+  bool is_named() const {
     struct stat status {};
     return ::fstat(file_.descriptor(), &status) == 0 && status.st_nlink > 0;
   }
 
   fs::path path_;
   File file_;
-  bool is_ours_ = false;
+  bool is_ours_ = false, is_renamed_ = false;
 };
 
 // Removes a temporary that nobody writes any more. Where locks are unknown, its age tells.
@@ -143,30 +159,19 @@ bool sync(int descriptor) {
   return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;  // no such thing on this file system
 }
 
-bool rename_to(const fs::path& from, const fs::path& to) {
-  int failed = 0;
-  do failed = ::rename(from.c_str(), to.c_str());
-  while (failed != 0 && errno == EINTR);  // file systems in user space may be interrupted
-  return failed == 0;
-}
-
 // Temporary in the same folder, `finish(descriptor)`, rename.
 template <class Finish>
 bool replace_file(const fs::path& path, std::span<const std::byte> bytes, Finish finish) {
   constexpr int kTries = 20;  // ours: a sweep that meets each one just before its lock is no sweep
   for (int tries = 0; tries < kTries; ++tries) {
-    const Temporary temporary(path.parent_path());
+    Temporary temporary(path.parent_path());
     if (!temporary.is_open()) return false;
     errno = EBUSY;
     if (!temporary.is_ours()) continue;
     if (write_all(temporary.descriptor(), bytes) && finish(temporary.descriptor()) &&
-        temporary.close_copy() && rename_to(temporary.path(), path))
+        temporary.close_copy() && temporary.rename_to(path))
       return true;
-    const int why = errno;
-    if (why == ENOENT) continue;  // taken away by a machine that does not see the lock
-    ::unlink(temporary.path().c_str());
-    errno = why;
-    return false;
+    if (errno != ENOENT) return false;  // else taken away by a machine that does not see the lock
   }
   return false;
 }

@@ -245,7 +245,7 @@ TEST_F(Build, SeveralAtOnceShareACache) {
   EXPECT_EQ(contents(folder / "out0"), contents(folder / "out1"));
   EXPECT_EQ(contents(folder / "out0"), contents(folder / "out2"));
   for (const auto& item : fs::recursive_directory_iterator(folder / "cache"))
-    EXPECT_THAT(item.path().filename().string(), Not(HasSubstr(".tmp-")));
+    EXPECT_THAT(item.path().filename().string(), Not(HasSubstr(".skinforge-")));
 }
 
 TEST_F(Build, PlanSaysWhatWillRun) {

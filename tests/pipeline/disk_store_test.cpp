@@ -56,7 +56,7 @@ TEST(DiskStore, ListsEntriesButNoTemporaries) {
   DiskStore store(folder.path());
   store.write("ac/b", bytes_of("22"));
   store.write("ac/a", bytes_of("1"));
-  write_text(folder / "ac/.tmp-1-2", "half");
+  write_text(folder / "ac/.skinforge-1-2", "half");
   const auto entries = store.list("ac");
   ASSERT_THAT(entries, SizeIs(2));
   EXPECT_EQ(entries[0].name, "a");
@@ -124,22 +124,43 @@ TEST(DiskStore, MakesItsFoldersAgainWhenTheyGo) {
   EXPECT_TRUE(store.write("cas/x", bytes_of("x")));
 }
 
+// Sizes that no memory holds: entries with a hole of a terabyte, which read as zeros. Nothing of them is
+// read.
+TEST(DiskStore, ATerabyteInPlaceOfAnEntryIsDamage) {
+  const TemporaryFolder folder;
+  DiskStore store(folder.path());
+  const Bytes result = bytes_of("result");
+  Manifest manifest;
+  manifest.key = sha256(bytes_of("key"));
+  manifest.outputs = {{"out", sha256(result), result.size()}};
+  for (const std::string& entry : {"ac/" + manifest.key.hex(), "cas/" + sha256(result).hex()}) {
+    Cache cache(store);
+    cache.put_blob(sha256(result), result);
+    cache.put(manifest);
+    ASSERT_TRUE(cache.find(manifest.key));
+    fs::resize_file(folder / entry, std::uintmax_t{1} << 40);
+    EXPECT_FALSE(cache.find(manifest.key));
+    EXPECT_THAT(cache.take_warnings(), SizeIs(1));
+    EXPECT_FALSE(fs::exists(folder / entry));
+  }
+}
+
 // The lock of a temporary is held by who writes it; that the process number in its name is in use says
 // nothing.
 TEST(DiskStore, RemovesTemporariesThatNobodyWrites) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "cas");
-  const std::string prefix = ".tmp-" + std::to_string(::getpid());
-  for (const std::string& name : {prefix + "-1", prefix + "-2", std::string(".tmp-note")})
+  const std::string prefix = ".skinforge-" + std::to_string(::getpid());
+  for (const std::string& name : {prefix + "-1", prefix + "-2", std::string(".skinforge-1-note")})
     write_text(folder / ("cas/" + name), "half");
   const int written = ::open((folder / ("cas/" + prefix + "-2")).c_str(), O_WRONLY | O_CLOEXEC);
   ASSERT_EQ(::flock(written, LOCK_EX | LOCK_NB), 0);
 
   DiskStore(folder.path()).write("cas/x", bytes_of("x"));
-  EXPECT_THAT(files_in(folder / "cas"), ElementsAre(prefix + "-2", ".tmp-note", "x"));
+  EXPECT_THAT(files_in(folder / "cas"), ElementsAre(".skinforge-1-note", prefix + "-2", "x"));
   ::close(written);
   DiskStore(folder.path()).write("cas/x", bytes_of("x"));
-  EXPECT_THAT(files_in(folder / "cas"), ElementsAre(".tmp-note", "x"));
+  EXPECT_THAT(files_in(folder / "cas"), ElementsAre(".skinforge-1-note", "x"));
 }
 
 // Who sweeps all the time takes nothing from who writes all the time.

@@ -87,9 +87,9 @@ TEST_F(Publish, ReplacesALinkInsteadOfFollowingIt) {
 
 TEST_F(Publish, RemovesWhatKilledBuildsLeft) {
   fs::create_directories(folder / "out");
-  std::ofstream(folder / "out/.tmp-1-2") << "half";
+  std::ofstream(folder / "out/.skinforge-1-2") << "half";
   publish(engine, std::vector<OutputFile>{{"a.glb", "glb"}}, folder / "out");
-  EXPECT_FALSE(fs::exists(folder / "out/.tmp-1-2"));
+  EXPECT_FALSE(fs::exists(folder / "out/.skinforge-1-2"));
   EXPECT_TRUE(fs::exists(folder / "out/a.glb"));
 }
 
@@ -106,7 +106,7 @@ TEST_F(Publish, SaysWhyItCannotWrite) {
   EXPECT_THROW(write_output(folder / "nowhere/x", bytes_of("x")), Error);
   EXPECT_FALSE(std::filesystem::exists(folder / "nowhere"));
   for (const auto& item : std::filesystem::directory_iterator(folder / "out"))
-    EXPECT_FALSE(item.path().filename().string().starts_with(".tmp-")) << item.path();
+    EXPECT_FALSE(item.path().filename().string().starts_with(".skinforge-")) << item.path();
 }
 
 TEST_F(Publish, NeverOverwritesAnInputOrWritesTwice) {
