@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
+#include <span>
 
 #include "io/line_reader.h"
 
@@ -21,8 +22,7 @@ class DmatParser {
     if (columns_ * rows_ > size_ / 2)
       lines_.fail(fmt::format("{} columns of {} rows are more than the file holds", columns_, rows_));
     Eigen::MatrixXd table(rows_, columns_);
-    for (std::size_t c = 0; c < columns_; ++c)
-      for (std::size_t r = 0; r < rows_; ++r) table(r, c) = checked(lines_.number<double>(word(), "a value"));
+    for (double& value : values(table)) value = checked(lines_.number<double>(word(), "a value"));
     if (lines_.has_more() || lines_.find_line())
       lines_.fail(fmt::format("more values than {} columns of {} rows", columns_, rows_));
     return table;
@@ -41,6 +41,11 @@ class DmatParser {
     return lines_.next_word();
   }
 
+  // Column after column. Two thousand million columns of no rows are none.
+  static std::span<double> values(Eigen::MatrixXd& table) {
+    return {table.data(), static_cast<std::size_t>(table.size())};
+  }
+
   double checked(double value) const {
     if (!std::isfinite(value)) lines_.fail("a value is not finite");
     return value;
@@ -54,10 +59,11 @@ class DmatParser {
                               columns_ * rows_ * sizeof(double), bytes.size()));
     Eigen::MatrixXd table(rows_, columns_);
     if (!bytes.empty()) std::memcpy(table.data(), bytes.data(), bytes.size());
-    for (std::size_t c = 0; c < columns_; ++c)
-      for (std::size_t r = 0; r < rows_; ++r)
-        if (!std::isfinite(table(r, c)))
-          lines_.fail(fmt::format("the value in row {} of column {} is not finite", r + 1, c + 1));
+    const std::span<double> all = values(table);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!std::isfinite(all[i]))
+        lines_.fail(
+            fmt::format("the value in row {} of column {} is not finite", i % rows_ + 1, i / rows_ + 1));
     return table;
   }
 
