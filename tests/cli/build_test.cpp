@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -467,6 +468,27 @@ TEST_F(Build, SurfaceKeysMoveTheirStages) {
   EXPECT_THAT(rule, Not(::testing::Contains("place")));
   EXPECT_THAT(rule, Not(::testing::Contains("graft_skeleton")));
   EXPECT_THAT(rule, Not(::testing::Contains("junction")));  // the tail has no such component: nothing changed
+}
+
+// The bytes that the refusal names are just enough.
+TEST_F(Build, TheLatticeIsEstimatedBeforeItIsTaken) {
+  const std::string recipe = copied_recipe("d1_centaur.json", [](json& r) {
+    r["animation"] = {{"clips", json::array()}};
+    r["ops"][0]["surface"] = {{"voxel", 0.0125}};
+  });
+  const auto build_with = [&](const std::string& limit) {
+    return call({"build", recipe, "--report", "none", "--cache", "cache", "--out", "out", "--limit", limit});
+  };
+  const ProgramResult refused = build_with("memory=9M");
+  EXPECT_EQ(refused.status, 1);
+  const std::string before = "lattice points of ";
+  EXPECT_THAT(refused.err, HasSubstr("--limit memory=N raises it"));
+  ASSERT_THAT(refused.err, HasSubstr(before));
+  const double bytes = std::stod(refused.err.substr(refused.err.find(before) + before.size()));  // 3 digits
+  const auto memory = [&](double factor) { return "memory=" + std::to_string(std::llround(factor * bytes)); };
+  EXPECT_EQ(build_with(memory(0.99)).status, 1);
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  EXPECT_EQ(build_with(memory(1.01)).status, 0);
 }
 
 // A preview stands beside the build and says what it is.

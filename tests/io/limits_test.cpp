@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "io/export.h"
+#include "io/fbx_document.h"
 #include "io/import.h"
 #include "testing/assets.h"
 
@@ -65,6 +66,22 @@ std::uint64_t vertices_of(const RawScene& scene) {
   return count;
 }
 
+/// Times and values; linear tracks alone.
+template <class Value>
+std::uint64_t numbers_in(const Track<Value>& track) {
+  EXPECT_NE(track.interpolation, Interpolation::CubicSpline);
+  constexpr std::size_t kComponents = sizeof(Value) / sizeof(double);
+  return track.times.size() + kComponents * track.values.size();
+}
+
+std::uint64_t numbers_in_keys(const RawScene& scene) {
+  std::uint64_t count = 0;
+  for (const auto& animation : scene.animations)
+    for (const auto& tracks : animation.nodes)
+      count += numbers_in(tracks.translation) + numbers_in(tracks.rotation) + numbers_in(tracks.scale);
+  return count;
+}
+
 template <class Value>
 double latest(const Track<Value>& track) {
   return track.times.empty() ? 0 : track.times.back();
@@ -87,11 +104,21 @@ TEST_P(LimitsTest, OfAScene) {
   const bool is_glb = path.ends_with(".glb");
   if (is_glb) expect_both_sides("joints", scene.skins.at(0).joints.size(), read);
   if (is_glb) expect_both_sides("vertices", vertices_of(scene), read);
+  if (is_glb) expect_both_sides("keys", numbers_in_keys(scene), read);
   expect_both_sides("clip", static_cast<std::uint64_t>(std::ceil(latest_key(scene))), read);
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, LimitsTest, ::testing::Values("data/horse.glb", "data/human.fbx"),
                          [](const auto& file) { return std::string(file.param).substr(5, 5); });
+
+/// By hand: three numbers of eight bytes each.
+TEST_F(LimitsTest, OfAPackedBlock) {
+  const Bytes bytes(24);
+  FbxArray array;
+  array.count = 3;
+  array.data = bytes;
+  expect_both_sides("inflate", 24, [&] { numbers(array); });
+}
 
 TEST_F(LimitsTest, OfAFile) {
   const std::string path = testing::repository_file("data/human.obj");
