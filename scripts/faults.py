@@ -14,6 +14,7 @@
     memory       address space from 64 MB to 2 GB in steps of 64 MB
     descriptors  3 to 40 open files
     clock        files of 1970 and of 2099
+    calls        kills or fails opens, locks, copies, closes in turn, cold (at most 100 of each fault); needs strace
     sweep        kills or fails each file-system call in turn, cold (tools/crash_sweep.sh of SKINFORGE_SHARED)
     sweep-warm   the same from a warm cache; --faults names other faults than kill,ENOSPC,ENOSPC+,EIO,EIO+,EINTR
 
@@ -27,7 +28,7 @@ import subprocess
 import sys
 import tempfile
 
-from faults import crowd, damage, disk
+from faults import calls, crowd, damage, disk
 from faults.lab import Lab
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -40,7 +41,7 @@ def sweep(args, warm):
     if not tool.exists():
         raise SystemExit(f"no {tool}: set SKINFORGE_SHARED")
     command = f"{args.program} build {args.recipe} --report {args.report} -j 1 --cache {{cache}} --out {{out}}"
-    words = ["bash", tool, "-m", str(args.rounds or 1000), "-f", args.faults, "-x", "timings.json", *(["-w"] if warm else [])]
+    words = ["bash", tool, "-t", "300", "-m", str(args.rounds or 1000), "-f", args.faults, "-x", "timings.json", *(["-w"] if warm else [])]
     return subprocess.run([*words, command], cwd=ROOT).returncode
 
 
@@ -56,6 +57,7 @@ def main():
         "surroundings": lambda lab, args, dice: crowd.surroundings(lab, args.rounds or 20),
         "memory": lambda lab, args, dice: disk.memory(lab, range(64, 2049, 64)),
         "descriptors": lambda lab, args, dice: disk.descriptors(lab, range(3, 41)),
+        "calls": lambda lab, args, dice: calls.calls(lab, args.rounds or 100),
         "clock": lambda lab, args, dice: disk.clock(lab),
     }
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)

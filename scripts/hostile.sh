@@ -5,6 +5,7 @@
 #   scripts/hostile.sh [PROGRAM]        default build/release/skinforge
 # SKINFORGE_SHARED: folder of the shared test material (default ../shared).
 # With a program built with sanitizers give it more memory and time: MEMORY=8192 SECONDS_EACH=60 scripts/hostile.sh build/dev/skinforge
+# The fuzzer as PROGRAM (build/fuzz/tests/fuzz/skinforge_fuzz, made by scripts/fuzz.sh) only imports the assets, with sanitizers.
 set -euo pipefail
 
 # A recipe of one input and no operation, in the output folder.
@@ -25,6 +26,10 @@ if [ ! -f "$shared/hostile/index.json" ]; then
 fi
 run() { bash "$shared/tools/run_hostile.sh" -w -m "${MEMORY:-2048}" -t "${SECONDS_EACH:-10}" "$@"; }
 failed=0
+if [ "$(basename "$program")" = skinforge_fuzz ]; then
+  SKINFORGE_FUZZ_TARGET=import run "$shared/hostile" "$program {}"
+  exit
+fi
 run "$shared/hostile" "$program inspect {}" || failed=1
 run "$shared/hostile" "bash $self --build-asset $program {} {out}" || failed=1
 run -k recipe "$shared/hostile" "$program build {} --out {out} --cache {out}/cache" || failed=1

@@ -53,7 +53,8 @@ std::string run_record_text(const RunRecord& record) {
 
 std::optional<RunRecord> parse_run_record(std::string_view text) {
   try {
-    const json document = json::parse(text);
+    const json document = json::parse(text, nullptr, false);
+    if (!document.is_object()) return std::nullopt;
     RunRecord record;
     record.settings = document.at("settings").get<std::vector<Settings>>();
     for (const auto& [label, stage] : document.at("stages").items()) {

@@ -1,6 +1,7 @@
 // One fuzzer for all targets; SKINFORGE_FUZZ_TARGET names the one to feed. With the name "seeds" no fuzzing:
 // each file given is read as a model and its scene written beside it as FILE.scene, as the import child hands
-// it over.
+// it over. With the name "import" it imports the file given, as `skinforge inspect` does
+// (scripts/hostile.sh).
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -24,6 +25,20 @@ int write_seeds(int count, char** files) {
   }
   return 0;
 }
+
+int import_file(const char* path) {
+  IssueSink issues;
+  try {
+    const Character character = import_character(path, issues);
+    std::printf("%s: %zu joints\n", path, character.skeleton.size());
+  } catch (const Error& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return static_cast<int>(error.code());
+  }
+  for (const Issue& issue : issues.issues())
+    std::fprintf(stderr, "warning: %s: %s\n", issue.place.c_str(), issue.message.c_str());
+  return 0;
+}
 }  // namespace
 
 extern "C" int LLVMFuzzerInitialize(int* count, char*** words) {
@@ -31,6 +46,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** words) {
     std::exit(import_worker_main(*count, *words));
   const char* name = std::getenv("SKINFORGE_FUZZ_TARGET");
   if (name && std::string_view(name) == "seeds") std::exit(write_seeds(*count, *words));
+  if (name && std::string_view(name) == "import" && *count == 2) std::exit(import_file((*words)[1]));
   chosen = name ? fuzz::find_target(name) : nullptr;
   if (!chosen) {
     std::fputs("SKINFORGE_FUZZ_TARGET names none of:", stderr);
