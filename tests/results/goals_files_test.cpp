@@ -3,14 +3,17 @@
 
 #include <fstream>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "io/import.h"
 #include "testing/assets.h"
 #include "testing/program.h"
 #include "testing/temporary_folder.h"
 
-// Goals of the build tool about files: valid output (10), a complete ledger (11), faults told (15).
+// Goals of the build tool about files: valid output (10), a complete ledger (11), keys and size (12), faults
+// told (15).
 namespace skinforge {
 namespace {
 namespace fs = std::filesystem;
@@ -114,6 +117,52 @@ TEST_F(GoalsOfFiles, Goal11TheLedgerIsComplete) {
     for (const json& clip : answer({"inspect", model}).at("clips"))
       EXPECT_TRUE(items["clip"].contains(clip.at("name"))) << clip;
   }
+}
+
+// Tracks of joints by "clip/joint", without those named in `but`.
+std::map<std::string, RawScene::NodeTracks> tracks_of(const fs::path& file,
+                                                      const std::set<std::string>& but = {}) {
+  const RawScene scene = read_scene(read_input_files(file.string()));
+  std::map<std::string, RawScene::NodeTracks> tracks;
+  for (const RawScene::Animation& clip : scene.animations)
+    for (const RawScene::NodeTracks& track : clip.nodes) {
+      const std::string& joint = scene.nodes[static_cast<std::size_t>(track.node)].name;
+      if (!but.contains(joint)) tracks[clip.name + "/" + joint] = track;
+    }
+  return tracks;
+}
+
+std::set<std::string> node_names(const fs::path& file) {
+  std::set<std::string> names;
+  for (const RawScene::Node& node : read_scene(read_input_files(file.string())).nodes)
+    names.insert(node.name);
+  return names;
+}
+
+// Joints that no graft touches have the keys they came with, to the bit, and the file is no larger than what
+// went into it, though every clip moves twice as many joints now.
+TEST_F(GoalsOfFiles, Goal12KeysStayAndTheFileIsSmall) {
+  const fs::path data = testing::repository_file("data");
+  ASSERT_EQ(call({"build", testing::repository_file("recipes/centaur.json"), "--out", "out", "--cache",
+                  "cache", "--report", "none"})
+                .status,
+            0);
+  const fs::path made = folder / "out/centaur.glb";
+  EXPECT_LE(fs::file_size(made),
+            1.2 * static_cast<double>(fs::file_size(data / "horse.glb") + fs::file_size(data / "human.glb")));
+
+  const auto after = tracks_of(made);
+  std::size_t compared = 0;
+  for (const auto& [name, track] : tracks_of(data / "horse.glb", node_names(data / "human.glb"))) {
+    const auto found = after.find(name);
+    if (found == after.end()) continue;  // of the neck and the head, which are gone
+    ++compared;
+    EXPECT_EQ(track.rotation.times, found->second.rotation.times) << name;
+    EXPECT_TRUE(track.rotation.values == found->second.rotation.values) << name;
+    EXPECT_EQ(track.translation.times, found->second.translation.times) << name;
+    EXPECT_TRUE(track.translation.values == found->second.translation.values) << name;
+  }
+  EXPECT_GT(compared, 50U);
 }
 
 // One thing that is wrong with a recipe or a file.
