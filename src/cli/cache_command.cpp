@@ -6,12 +6,18 @@
 #include "cli/recipe_tasks.h"
 #include "cli/session.h"
 #include "pipeline/cache.h"
+#include "pipeline/cache_layout.h"
 #include "pipeline/cache_usage.h"
 
 namespace skinforge {
 using nlohmann::json;
 
 namespace {
+// What killed builds left in the folders that a build writes.
+void remove_left_behind(const DiskStore& store) {
+  for (const char* folder : cache_layout::kFolders) store.remove_stale_temporaries(folder);
+}
+
 std::string text_of(const CacheUsage& usage) {
   if (usage.hits + usage.runs == 0) return "";
   return fmt::format(
@@ -77,6 +83,7 @@ ExitCode cache_gc_command(const CommandLine& line, Console& console) {
   if (line.max_size_gb > 0) options.max_bytes = static_cast<std::uint64_t>(line.max_size_gb * 1e9);
   if (line.max_age_days > 0) options.max_age_seconds = line.max_age_days * 86400;
   const Cache::Collected collected = Cache(store).collect(options);
+  remove_left_behind(store);
   if (line.json)
     print_data(json{{"entries", collected.entries},
                     {"results", collected.blobs},
@@ -138,6 +145,7 @@ ExitCode cache_verify_command(const CommandLine& line, Console& console) {
 ExitCode cache_clear_command(const CommandLine& line, Console& console) {
   DiskStore store(line.cache);
   const std::uint64_t removed = Cache(store).clear();
+  remove_left_behind(store);
   if (line.json)
     print_data(json{{"removed", removed}}.dump(2));
   else

@@ -143,7 +143,7 @@ void Cache::put_past_run(const std::string& session, const RunRecord& run) {
 }
 
 void Cache::recall_digests(const std::string& session, FileDigests& digests) {
-  if (const std::optional<Bytes> bytes = store_.read(run_path(kDigests, session)))
+  if (const std::optional<Bytes> bytes = read_record(store_, run_path(kDigests, session)))
     digests.recall(std::string(text_of(*bytes)));
 }
 
@@ -199,7 +199,7 @@ std::vector<std::string> Cache::verify() {
 
 std::uint64_t Cache::clear() {
   std::uint64_t removed = 0;
-  for (const char* folder : {kManifests, kFailures, kRuns, kPastRuns, kPins, kDigests, kBlobs}) {
+  for (const char* folder : kFolders) {
     for (const DigestEntry& entry : entries(store_, folder)) {
       store_.remove(entry.path);
       ++removed;

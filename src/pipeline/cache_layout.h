@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +20,10 @@ constexpr const char* kPastRuns = "past-runs";
 constexpr const char* kFailures = "failures";
 constexpr const char* kPins = "pins";
 constexpr const char* kDigests = "digests";
+constexpr const char* kUsage = "usage";
+
+/// All of them; what names others stands before what is named.
+inline constexpr std::array kFolders = {kManifests, kFailures, kRuns, kPastRuns, kPins, kDigests, kBlobs, kUsage};
 
 struct DigestEntry {
   std::string path;

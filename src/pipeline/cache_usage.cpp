@@ -10,8 +10,6 @@ using nlohmann::json;
 using namespace cache_layout;
 
 namespace {
-constexpr const char* kUsage = "usage";
-
 CacheUsage read_usage(const BlobStore& store, const std::string& path) {
   const std::optional<Bytes> bytes = read_record(store, path);
   const json document = bytes ? json::parse(text_of(*bytes), nullptr, false) : json();

@@ -298,9 +298,12 @@ TEST_F(Cli, TwoRecipesOfOneNameAreRefused) {
 
 TEST_F(Cli, CacheGcAndPins) {
   EXPECT_EQ(call({"cache", "gc", "--cache", "cache"}).status, 2);
+  fs::create_directories(folder / "cache/cas");
+  write("cache/cas/.skinforge-1-2", "half");  // of a build that was killed
   const ProgramResult gc = call({"cache", "gc", "--cache", "cache", "--max-age", "7", "--json"});
   EXPECT_EQ(gc.status, 0);
   EXPECT_EQ(json::parse(gc.out).at("entries"), 0);
+  EXPECT_FALSE(fs::exists(folder / "cache/cas/.skinforge-1-2"));
   write("x.json", kNoSuchInput);
   EXPECT_THAT(call({"cache", "pin", "x.json", "--cache", "cache"}).err, HasSubstr("no build of it"));
 }
