@@ -5,6 +5,9 @@
 #include <cstring>
 
 namespace skinforge {
+namespace {
+constexpr double kMostCells = 0x1p62;  // fits the integers of a cell
+}
 
 std::size_t PointIndex::CellHash::operator()(const Cell& c) const {
   std::uint64_t hash = 0;
@@ -16,9 +19,10 @@ PointIndex::Cell PointIndex::cell_of(const Vec3& point) const {
   Cell cell;
   for (int axis = 0; axis < 3; ++axis) {
     const double x = point[axis] + 0.0;  // -0 is 0
-    if (cell_ > 0)
-      cell[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::floor(x / cell_));
-    else
+    const double number = cell_ > 0 ? std::floor(x / cell_) : kMostCells;
+    if (std::abs(number) < kMostCells)
+      cell[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(number);
+    else  // so far out that the tolerance is lost in rounding
       std::memcpy(&cell[static_cast<std::size_t>(axis)], &x, sizeof x);
   }
   return cell;
