@@ -44,6 +44,7 @@ def calls(lab, most):
             elif not fault.startswith("signal"):
                 lab.expect_error(run, what)
             lab.expect_recovery(cache, out, what)
+            lab.expect(lab.cache("gc", cache, "--max-age", "9").status == 0, f"{what}: cache gc")
             left = [path.name for folder in (cache, out) for path in folder.rglob(TEMPORARY + "*")]
-            lab.expect(not left, f"{what}: temporaries {left[:3]} stay after the next build")
+            lab.expect(not left, f"{what}: temporaries {left[:3]} stay after the next build and cache gc")
         print(f"calls: {fault}: {sum(done.values())} of {len(chosen)} points, {dict(done)}")
