@@ -65,6 +65,8 @@ seeds gltf glb gltf
 seeds character glb
 seeds recipe_json json
 seeds recipe_yaml yaml yml
+# Their inputs must be there: without them nothing behind them is read.
+find build/fuzz/seeds/recipe_json build/fuzz/seeds/recipe_yaml -type f -exec sed -i -E 's#\.\./(assets|\.\./assets|models|data)/[^":, }]*#../data/horse.glb#' {} +
 seeds tgf tgf
 seeds dmat dmat
 seeds off off
@@ -75,6 +77,18 @@ seeds image png jpg
 scene_seeds
 cache_seeds
 mkdir -p build/fuzz/findings
+
+# The words of a recipe, which no mutation finds.
+python3 -c '
+import json
+def words(node):
+    if isinstance(node, dict):
+        yield from node.get("properties", {})
+        yield from (word for word in node.get("enum", []) if isinstance(word, str))
+    for part in node.values() if isinstance(node, dict) else node if isinstance(node, list) else []:
+        yield from words(part)
+for word in sorted(set(words(json.load(open("schemas/recipe.schema.json"))))):
+    print(f"\"{word}\"")' >build/fuzz/recipe.dict
 
 fuzz() {
   local target=$1 log=build/fuzz/$1.log failed=0
@@ -103,7 +117,7 @@ coverage() {
   done
   llvm-profdata merge -o $profile/all.profdata $profile/*.profraw
   llvm-cov export "$fuzzer" -instr-profile $profile/all.profdata -summary-only \
-    src/base/{base64,text}.cpp src/io/{gltf,build_character,fbx,png}_*.cpp src/io/build_character.cpp src/io/{raw_scene_check,obj_check,dae_check,off_reader,tgf_reader,number_table,image_codec,inflate,trs}.cpp \
+    src/base/{base64,text}.cpp src/io/{gltf,build_character,fbx}_*.cpp src/io/png_chunks.cpp src/io/build_character.cpp src/io/{raw_scene_check,obj_check,dae_check,off_reader,tgf_reader,number_table,image_codec,inflate,trs}.cpp \
     src/pipeline/{cache,cache_gc,manifest,run_record}.cpp src/recipe/*.cpp | python3 -c '
 import json, sys
 files = []
@@ -124,7 +138,9 @@ fi
 failed=0
 for target in "${targets[@]}"; do
   inputs_of "$target"
-  fuzz "$target" -max_total_time=$((60 * minutes)) -timeout=30 -rss_limit_mb=3072 -malloc_limit_mb=2048 -max_len=40000 -print_final_stats=1 \
+  dictionary=
+  case $target in recipe_*) dictionary=-dict=build/fuzz/recipe.dict ;; esac
+  fuzz "$target" $dictionary -max_total_time=$((60 * minutes)) -timeout=30 -rss_limit_mb=3072 -malloc_limit_mb=2048 -max_len=40000 -print_final_stats=1 \
     -artifact_prefix="build/fuzz/findings/$target-" "${inputs[@]}" || failed=1
 done
 exit $failed

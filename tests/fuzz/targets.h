@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/error.h"
+#include "base/expect.h"
 #include "io/build_character.h"
 #include "io/dae_check.h"
 #include "io/export.h"
@@ -89,12 +91,33 @@ inline void feed_image(std::span<const std::byte> bytes) {
   decode_image({"a", "image/png", Bytes(bytes.begin(), bytes.end())});
 }
 
+/// A recipe in the folder `recipes` of the repository, where its inputs are: without them nothing behind
+/// them is read.
+inline void feed_recipe(std::span<const std::byte> bytes, const char* name) {
+  parse_recipe(text_of(bytes), std::filesystem::current_path() / "recipes" / name);
+}
+
 inline void feed_recipe_json(std::span<const std::byte> bytes) {
-  parse_recipe(text_of(bytes), "/nowhere/recipe.json");
+  feed_recipe(bytes, "fuzz.json");
 }
 
 inline void feed_recipe_yaml(std::span<const std::byte> bytes) {
-  parse_recipe(text_of(bytes), "/nowhere/recipe.yaml");
+  feed_recipe(bytes, "fuzz.yaml");
+}
+
+/// What was read is written and read back.
+inline void write_again(Cache& cache, const Digest& key) {
+  if (const auto manifest = cache.peek(key)) {
+    cache.put(*manifest);
+    SF_EXPECT(cache.peek(key).has_value());
+  }
+  if (const auto failure = cache.failure(key)) {
+    cache.put_failure(key, *failure);
+    SF_EXPECT(cache.failure(key)->message == failure->message);
+  }
+  const RunRecord run = cache.last_run("session");
+  if (!run.stages.empty()) cache.put_past_run("session", run);
+  if (cache.pin("session")) cache.unpin("session");
 }
 
 /// Entries of a cache: manifests, results, failures, records of runs. An odd first byte puts a fitting header
@@ -125,6 +148,7 @@ inline void feed_cache(std::span<const std::byte> bytes) {
   cache.past_runs("session");
   cache.blob(key);
   cache.stats();
+  write_again(cache, key);
   cache.collect({.max_bytes = 100, .min_blob_age_seconds = 0});
   cache.verify();
 }
