@@ -15,12 +15,12 @@ class Run:
 
 
 def digests(folder):
-    """SHA-256 of each file below a folder but timings.json, which tells of one run, and temporaries."""
+    """SHA-256 of each file below a folder but timings.json and report.html, which tell of one run, and temporaries."""
     folder = pathlib.Path(folder)
     return {
         str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
         for path in sorted(folder.rglob("*"))
-        if path.is_file() and path.name != "timings.json" and not path.name.startswith(TEMPORARY)
+        if path.is_file() and path.name not in ("timings.json", "report.html") and not path.name.startswith(TEMPORARY)
     }
 
 
