@@ -23,7 +23,8 @@ constexpr const char* kDigests = "digests";
 constexpr const char* kUsage = "usage";
 
 /// All of them; what names others stands before what is named.
-inline constexpr std::array kFolders = {kManifests, kFailures, kRuns, kPastRuns, kPins, kDigests, kBlobs, kUsage};
+inline constexpr std::array kFolders = {kManifests, kFailures, kRuns,  kPastRuns,
+                                        kPins,      kDigests,  kBlobs, kUsage};
 
 struct DigestEntry {
   std::string path;
