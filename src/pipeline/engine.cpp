@@ -54,10 +54,15 @@ void Engine::Session::run(const std::vector<Node*>& tasks) {
     }
   };
   std::vector<std::thread> helpers;
-  try {
-    for (std::size_t i = 1; i < std::min(options.jobs, tasks.size()); ++i) helpers.emplace_back(work);
-  } catch (const std::system_error&) {  // no more threads to be had; those there are do all the work
-  }
+  std::once_flag once;
+  call_helpers = [&] {
+    std::call_once(once, [&] {
+      try {
+        for (std::size_t i = 1; i < std::min(options.jobs, tasks.size()); ++i) helpers.emplace_back(work);
+      } catch (const std::system_error&) {  // no more threads to be had; those there are do all the work
+      }
+    });
+  };
   work();
   for (std::thread& helper : helpers) helper.join();
   remember_run();

@@ -183,6 +183,7 @@ void Engine::Session::process(Node& node) {
   compute_key(node);
   node.result.key = node.key.digest;
   if (const auto manifest = cache.find(node.key.digest)) return adopt(node, *manifest);
+  call_helpers();
   std::optional<WorkShare::Held> claim;
   if (options.share) {
     claim.emplace(options.share->claim(node.key.digest));

@@ -45,6 +45,8 @@ struct Engine::Session {
   std::map<Digest, const Node*> ran;  // by key: who made its outputs first
   std::optional<RunRecord> last_run;  // as it was stored before this session
   RunRecord run_now;                  // and as this session goes on
+  /// Starts the other threads of a batch: with the first stage that has to run, since hits are not worth one.
+  std::function<void()> call_helpers;
 
   void add_source(const std::string& name, std::shared_ptr<Artifact> artifact);
   void add(std::unique_ptr<Stage> stage);
