@@ -198,7 +198,7 @@ TEST_F(Build, SettingsOfOneClipRunThatClipAlone) {
     }
 }
 
-TEST_F(Build, GoesOnAfterBeingKilled) {
+TEST_F(Build, Goal04GoesOnAfterBeingKilled) {
   ASSERT_EQ(call(build(horse, "whole", "whole-cache")).status, 0);
   for (int round = 0; round < 12; ++round) {
     Program program(SKINFORGE_BINARY, build(horse, "out"), folder.path());
@@ -214,7 +214,7 @@ TEST_F(Build, GoesOnAfterBeingKilled) {
 }
 
 // One byte of every file of a warm cache is flipped: the build warns, repairs and gives the same bytes.
-TEST_F(Build, MendsADamagedCache) {
+TEST_F(Build, Goal06MendsADamagedCache) {
   ASSERT_EQ(call(build(horse, "out")).status, 0);
   const auto made = contents(folder / "out");
   for (const auto& item : fs::recursive_directory_iterator(folder / "cache")) {
@@ -233,7 +233,7 @@ TEST_F(Build, MendsADamagedCache) {
   EXPECT_EQ(contents(folder / "out"), made);
 }
 
-TEST_F(Build, SeveralAtOnceShareACache) {
+TEST_F(Build, Goal06SeveralAtOnceShareACache) {
   std::vector<std::unique_ptr<Program>> programs;
   for (int i = 0; i < 3; ++i)
     programs.push_back(

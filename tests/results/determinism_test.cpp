@@ -54,7 +54,7 @@ class Determinism : public ::testing::Test {
   testing::TemporaryFolder folder;
 };
 
-TEST_F(Determinism, EveryFileHasTheSameBytes) {
+TEST_F(Determinism, Goal05EveryFileHasTheSameBytes) {
   fs::create_directories(folder / "elsewhere");
   build(folder.path(), "tail.json", "one", "1");
   build(folder / "elsewhere", "../tail.json", "two", "2");
