@@ -34,7 +34,10 @@ void PointIndex::add(std::size_t id, const Vec3& point) {
 
 std::vector<std::size_t> PointIndex::near(const Vec3& point) const {
   const Vec3 reach = Vec3::Constant(tolerance_);
-  const Cell low = cell_of(point - reach), high = cell_of(point + reach);
+  const Cell low = cell_of(point - reach);
+  Cell high = cell_of(point + reach);
+  // A reach without end, or one that is lost in rounding on one side only, would take forever.
+  for (std::size_t axis = 0; axis < 3; ++axis) high[axis] = std::min(high[axis], low[axis] + 2);
   std::vector<std::size_t> ids;
   for (std::int64_t x = low[0]; x <= high[0]; ++x)
     for (std::int64_t y = low[1]; y <= high[1]; ++y)
