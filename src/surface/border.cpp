@@ -220,6 +220,19 @@ FaceGroups group_faces(const PolygonMesh& mesh, const EdgeList& edges, const Fac
   return groups;
 }
 
+// Chains of the border by the group of kept faces that they bound.
+std::map<std::int32_t, int> chains_of_groups(const PolygonMesh& mesh, const EdgeList& edges,
+                                             const FaceSet& kept, const FaceGroups& groups) {
+  std::vector<std::int32_t> group_of_vertex(mesh.vertex_count(), -1);
+  for (std::size_t c = 0; c < mesh.corner_count(); ++c)
+    if (const FaceId f = edges.face_of_corner[c]; kept[f.index()])
+      group_of_vertex[mesh.corners[c].index()] = groups.of_face[f.index()];
+  std::map<std::int32_t, int> count;
+  for (const BorderChain& chain : border_chains(mesh, edges, kept))
+    ++count[group_of_vertex[chain.vertices[0].index()]];
+  return count;
+}
+
 constexpr int kScrapShare = 20;  // ours: the claws of a foot are a third of what is left of it, and stay
 
 }  // namespace
@@ -233,6 +246,17 @@ void drop_crumbs(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept, 
     const bool is_small = groups.size[g] < least_faces;
     const bool is_scrap = kScrapShare * groups.size[g] < largest && groups.size[g] <= groups.border_edges[g];
     if (groups.border_edges[g] > 0 && (is_small || is_scrap)) kept[f] = 0;
+  }
+}
+
+void restore_broken_groups(const PolygonMesh& mesh, const EdgeList& edges, const FaceSet& before,
+                           FaceSet& kept) {
+  const FaceGroups groups = group_faces(mesh, edges, before);
+  const auto chains_before = chains_of_groups(mesh, edges, before, groups);
+  const auto chains = chains_of_groups(mesh, edges, kept, groups);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto group = chains.find(groups.of_face[f]);
+    if (before[f] && group != chains.end() && group->second > chains_before.at(group->first)) kept[f] = 1;
   }
 }
 

@@ -39,4 +39,10 @@ int straighten_border(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& k
 /// fewer than `least_faces` faces, or, beside one twenty times as large, no more faces than border edges.
 void drop_crumbs(const PolygonMesh& mesh, const EdgeList& edges, FaceSet& kept, int least_faces);
 
+/// Gives groups of kept faces that fell apart since `before`, or have more borders than before, their faces
+/// back: three claws on what is left of a foot are one part with one border, however narrow the foot is
+/// between them.
+void restore_broken_groups(const PolygonMesh& mesh, const EdgeList& edges, const FaceSet& before,
+                           FaceSet& kept);
+
 }  // namespace skinforge

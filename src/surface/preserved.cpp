@@ -71,8 +71,10 @@ std::vector<Vec3> inward_neighbours(const PolygonMesh& mesh, const SourceSelecti
 }
 
 void tidy(const PolygonMesh& mesh, const EdgeList& edges, const PreserveOptions& options, FaceSet& kept) {
+  const FaceSet before = kept;
   open_face_set(mesh, edges, kept);
   drop_crumbs(mesh, edges, kept, options.least_faces);
+  restore_broken_groups(mesh, edges, before, kept);
   const int border = border_edge_count(mesh, edges, kept);
   const int allowed =
       std::max(options.straighten_least, static_cast<int>(std::lround(options.straighten_share * border)));

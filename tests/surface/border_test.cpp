@@ -9,6 +9,7 @@ namespace skinforge {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::ElementsAreArray;
 using ::testing::IsEmpty;
 using testing::quad_grid;
 
@@ -173,6 +174,26 @@ TEST(DropCrumbs, ScrapsBesideAMuchLargerGroup) {
   Picture claws({row + "..#", row + "..#"});
   drop_crumbs(claws.mesh, claws.edges, claws.kept, 1);
   EXPECT_THAT(claws.rows(), ElementsAre(row + "..#", row + "..#"));
+}
+
+// Opened, two blocks on a bridge would be two parts with a border each.
+TEST(RestoreBrokenGroups, BlocksOnABridgeStayOne) {
+  const std::vector<std::string> rows = {"...........", ".###...###.", ".#########.", ".###...###.",
+                                         "..........."};
+  const Picture whole(rows);
+  Picture p(rows);
+  open_face_set(p.mesh, p.edges, p.kept);
+  EXPECT_EQ(border_chains(p.mesh, p.edges, p.kept).size(), 2u);
+  restore_broken_groups(p.mesh, p.edges, whole.kept, p.kept);
+  EXPECT_THAT(p.rows(), ElementsAreArray(rows));
+}
+
+TEST(RestoreBrokenGroups, SpikesGo) {
+  const Picture whole({".......", ".###...", ".#####.", ".###...", "......."});
+  Picture p = whole;
+  open_face_set(p.mesh, p.edges, p.kept);
+  restore_broken_groups(p.mesh, p.edges, whole.kept, p.kept);
+  EXPECT_THAT(p.rows(), ElementsAre(".......", ".###...", ".###...", ".###...", "......."));
 }
 
 }  // namespace
