@@ -7,9 +7,9 @@
 #include <span>
 
 #include "surface/half_tube.h"
+#include "surface/improve_faces.h"
 #include "surface/junction_faults.h"
 #include "surface/quad_gate.h"
-#include "surface/raise_worst.h"
 #include "surface/remesh.h"
 #include "surface/tube.h"
 #include "surface/untangle.h"
@@ -84,17 +84,69 @@ constexpr int kMoreRows[] = {0, 1, -1, 2, 3, 4};
 // Jacobian).
 constexpr double kHopeless = -0.3;
 
+// A tube as it lies on its domain, and what mirroring does to it if it is to be symmetric.
+struct LaidTube {
+  QuadPatch patch;
+  std::optional<PatchMirror> mirror;
+};
+
 // How a tube gets its tables, and how one is made of them.
 struct Maker {
   std::function<std::optional<TubeTable>(int rows, const TubeOptions&)> table;
-  std::function<std::optional<QuadPatch>(const TubeTable&, int rows, bool is_polished)> made;
+  std::function<std::optional<LaidTube>(const TubeTable&, int rows)> laid;
 };
+
+Maker any_tube(const QuadTube& tube) {
+  return {[&](int rows, const TubeOptions& options) { return tube.table(rows, options); },
+          [&](const TubeTable& table, int rows) {
+            return LaidTube{tube.laid(table, rows), std::nullopt};
+          }};
+}
+
+Maker symmetric_tube(const QuadTube& tube, const PatchMirror& borders) {
+  return {[&](int rows, const TubeOptions& options) { return tube.symmetric_table(rows, options, borders); },
+          [&](const TubeTable& table, int rows) -> std::optional<LaidTube> {
+            LaidTube laid{tube.laid(table, rows), std::nullopt};
+            laid.mirror = mirror_of(laid.patch, borders);
+            if (!laid.mirror) return std::nullopt;
+            return laid;
+          }};
+}
+
+// A tube of the half above the plane, and its image.
+Maker unfolded_tube(const QuadTube& tube, std::size_t on_plane, const PatchMirror& borders) {
+  return {[&](int rows, const TubeOptions& options) { return tube.table(rows, options); },
+          [&, on_plane](const TubeTable& table, int rows) {
+            Unfolded whole = unfolded(tube.laid(table, rows), on_plane, borders);
+            return LaidTube{std::move(whole.patch), std::move(whole.mirror)};
+          }};
+}
+
+// Places for a tube's vertices, offered twice: where all faces are good, then where the worst are. Smoothing
+// before that serves all but thin and sharp shapes. Returns the least scaled Jacobian that came of it.
+double offer_places(const LaidTube& laid, const WantedSurface& surface, bool is_polished, Choice& choice) {
+  const PatchMirror* mirror = laid.mirror ? &*laid.mirror : nullptr;
+  const WantedSurface wanted = mirror ? mirrored(surface, mirror->plane) : surface;
+  QuadPatch patch = laid.patch;
+  if (mirror) make_symmetric(patch, *mirror);
+  if (is_polished) polish(patch, wanted.project);
+  if (mirror) make_symmetric(patch, *mirror);  // but for rounding it is
+  double least = -1;
+  for (const FaceGoal goal : {FaceGoal::All, FaceGoal::Worst}) {
+    improve_faces(patch, wanted, goal, mirror);
+    least = std::max(least, least_scaled_jacobian(patch));
+    choice.offer(patch);
+    if (choice.is_good()) break;
+  }
+  return least;
+}
 
 // Tables tried among seams once one has passed: more gained 0.03 in least scaled Jacobian and took a second
 // (ours).
 constexpr int kMoreAmongSeams = 2;
 
-void try_tables(const QuadTube& tube, const Maker& maker, std::size_t borders, Choice& choice) {
+void try_tables(const QuadTube& tube, const Maker& maker, const TubeProblem& problem, std::size_t borders,
+                Choice& choice) {
   std::vector<std::pair<int, TubeTable>> tried;
   int since_best = 0;
   for (const TubeOptions& options : options_for(borders))
@@ -103,49 +155,22 @@ void try_tables(const QuadTube& tube, const Maker& maker, std::size_t borders, C
       const auto table = maker.table(rows, options);
       if (!table || std::find(tried.begin(), tried.end(), std::pair(rows, *table)) != tried.end()) continue;
       double least = -1;
-      for (const bool is_polished : {true, false}) {
-        if (auto made = maker.made(*table, rows, is_polished)) {
-          least = std::max(least, least_scaled_jacobian(*made));
-          choice.offer(*std::move(made));
+      if (const auto laid = maker.laid(*table, rows))
+        for (const bool is_polished : {true, false}) {
+          least = std::max(least, offer_places(*laid, problem.surface, is_polished, choice));
+          if (choice.is_good()) return;
         }
-        if (choice.is_good()) return;
-      }
       if (tried.empty() && least < kHopeless) return;
       if (borders > 2 && choice.best() && since_best++ == kMoreAmongSeams) return;
       tried.emplace_back(rows, *table);
     }
 }
 
-Maker any_tube(const QuadTube& tube, const WantedSurface& surface) {
-  return {[&](int rows, const TubeOptions& options) { return tube.table(rows, options); },
-          [&](const TubeTable& table, int rows, bool is_polished) {
-            return tube.made(table, rows, surface, is_polished);
-          }};
-}
-
-Maker symmetric_tube(const QuadTube& tube, const WantedSurface& surface, const PatchMirror& borders) {
-  return {[&](int rows, const TubeOptions& options) { return tube.symmetric_table(rows, options, borders); },
-          [&](const TubeTable& table, int rows, bool is_polished) {
-            return tube.made_symmetric(table, rows, surface, borders, is_polished);
-          }};
-}
-
-// A tube of the half above the plane, and its image.
-Maker unfolded_tube(const QuadTube& tube, std::size_t on_plane, const WantedSurface& surface,
-                    const PatchMirror& borders) {
-  return {[&](int rows, const TubeOptions& options) { return tube.table(rows, options); },
-          [&, on_plane](const TubeTable& table, int rows, bool is_polished) {
-            Unfolded whole = unfolded(tube.laid(table, rows), on_plane, borders);
-            polish_symmetric(whole.patch, surface, whole.mirror, is_polished);
-            return whole.patch;
-          }};
-}
-
 void try_domain(const TubeDomain& domain, const std::function<Maker(const QuadTube&)>& maker,
-                std::size_t borders, Choice& choice) {
+                const TubeProblem& problem, std::size_t borders, Choice& choice) {
   std::string trouble;
   if (const auto tube = QuadTube::make(domain, trouble))
-    try_tables(*tube, maker(*tube), borders, choice);
+    try_tables(*tube, maker(*tube), problem, borders, choice);
   else
     choice.note(trouble);
 }
@@ -159,21 +184,21 @@ std::optional<QuadPatch> best_tube(const TrianglePatch& patch, const TubeProblem
   const std::size_t borders = problem.loops.size();
   if (mirror && borders > 2) {
     // Halves differ in the counts on the plane, and those matter.
-    for (const TubeDomain& domain : half_domains(fine, problem.loops, *mirror))
-      if (!choice.is_good())
-        try_domain(
-            domain,
-            [&](const QuadTube& tube) {
-              return unfolded_tube(tube, domain.seams.size(), problem.surface, *mirror);
-            },
-            2, choice);
+    for (const TubeDomain& domain : half_domains(fine, problem.loops, *mirror)) {
+      const auto maker = [&](const QuadTube& tube) {
+        return unfolded_tube(tube, domain.seams.size(), *mirror);
+      };
+      if (!choice.is_good()) try_domain(domain, maker, problem, 2, choice);
+    }
   } else {
     const auto maker = [&](const QuadTube& tube) {
-      return mirror ? symmetric_tube(tube, problem.surface, *mirror) : any_tube(tube, problem.surface);
+      return mirror ? symmetric_tube(tube, *mirror) : any_tube(tube);
     };
-    if (const auto domain = tube_domain(fine, problem.loops)) try_domain(*domain, maker, borders, choice);
+    if (const auto domain = tube_domain(fine, problem.loops))
+      try_domain(*domain, maker, problem, borders, choice);
     if (!choice.best())
-      if (const auto domain = even_domain(fine, problem.loops)) try_domain(*domain, maker, borders, choice);
+      if (const auto domain = even_domain(fine, problem.loops))
+        try_domain(*domain, maker, problem, borders, choice);
   }
   if (!choice.best())
     fault = choice.fault().empty() ? "the counts of its borders do not meet" : choice.fault();

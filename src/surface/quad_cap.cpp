@@ -6,8 +6,8 @@
 #include <set>
 
 #include "base/expect.h"
+#include "surface/improve_faces.h"
 #include "surface/quad_gate.h"
-#include "surface/raise_worst.h"
 #include "surface/symmetric_table.h"
 
 namespace skinforge {
@@ -115,7 +115,8 @@ std::optional<QuadPatch> placed(const JunctionLoop& loop, const Layout& layout,
     if (!mirror) return std::nullopt;
     make_symmetric(patch, *mirror);
   }
-  raise_worst(patch, surface, mirror ? &*mirror : nullptr);
+  for (const FaceGoal goal : {FaceGoal::All, FaceGoal::Worst})
+    improve_faces(patch, surface, goal, mirror ? &*mirror : nullptr);
   return patch;
 }
 

@@ -1,48 +1,69 @@
 #include "surface/triangle_patch.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
+#include <optional>
 
 namespace skinforge {
 namespace {
 
 using HalfEdge = std::pair<std::int32_t, std::int32_t>;
 
-// Boundary half-edges: those whose reverse no triangle has; and for each half-edge its triangle's third
-// vertex.
-std::map<HalfEdge, std::int32_t> half_edges(std::span<const Triangle> triangles) {
-  std::map<HalfEdge, std::int32_t> apex;
-  for (const Triangle& t : triangles)
-    for (int k = 0; k < 3; ++k) apex[{t[k], t[(k + 1) % 3]}] = t[(k + 2) % 3];
-  return apex;
-}
-
-// The boundary half-edge that follows `edge`: turn about its head through the triangles of the same fan.
-HalfEdge next_boundary(const std::map<HalfEdge, std::int32_t>& apex, HalfEdge edge) {
-  const std::int32_t pivot = edge.second;
-  std::int32_t spoke = apex.at(edge);  // triangle (edge.first, pivot, spoke): go on across (pivot, spoke)
-  while (true) {
-    const auto across = apex.find({spoke, pivot});
-    if (across == apex.end()) return {pivot, spoke};
-    spoke = across->second;
+// Half-edges in order, each with the third vertex of its triangle: of the last where several have it.
+class HalfEdges {
+ public:
+  explicit HalfEdges(std::span<const Triangle> triangles) {
+    all_.reserve(3 * triangles.size());
+    for (const Triangle& t : triangles)
+      for (int k = 0; k < 3; ++k) all_.push_back({{t[k], t[(k + 1) % 3]}, t[(k + 2) % 3]});
+    std::stable_sort(all_.begin(), all_.end(), [](const auto& a, const auto& b) { return a.edge < b.edge; });
+    const auto is_same = [](const auto& a, const auto& b) { return a.edge == b.edge; };
+    all_.erase(all_.begin(), std::unique(all_.rbegin(), all_.rend(), is_same).base());
   }
-}
+
+  std::size_t size() const { return all_.size(); }
+  const HalfEdge& edge(std::size_t i) const { return all_[i].edge; }
+  std::int32_t apex(std::size_t i) const { return all_[i].apex; }
+
+  // None where no triangle has it.
+  std::optional<std::size_t> find(const HalfEdge& edge) const {
+    const auto found =
+        std::lower_bound(all_.begin(), all_.end(), edge,
+                         [](const Entry& e, const HalfEdge& wanted) { return e.edge < wanted; });
+    if (found == all_.end() || found->edge != edge) return std::nullopt;
+    return static_cast<std::size_t>(found - all_.begin());
+  }
+
+  // The boundary half-edge that follows one: turn about its head through the triangles of the same fan.
+  std::size_t next_boundary(std::size_t i) const {
+    const std::int32_t pivot = all_[i].edge.second;
+    std::int32_t spoke = all_[i].apex;  // triangle (edge.first, pivot, spoke): go on across (pivot, spoke)
+    while (const auto across = find({spoke, pivot})) spoke = all_[*across].apex;
+    return *find({pivot, spoke});
+  }
+
+ private:
+  struct Entry {
+    HalfEdge edge;
+    std::int32_t apex;
+  };
+  std::vector<Entry> all_;
+};
 
 }  // namespace
 
 std::vector<std::vector<std::int32_t>> boundary_loops(std::span<const Triangle> triangles) {
-  const auto apex = half_edges(triangles);
-  std::map<HalfEdge, bool> open;  // boundary half-edges not yet walked
-  for (const auto& [edge, third] : apex)
-    if (!apex.contains({edge.second, edge.first})) open[edge] = true;
+  const HalfEdges half_edges(triangles);
+  std::vector<char> is_open(half_edges.size());  // boundary half-edges not yet walked
+  for (std::size_t i = 0; i < is_open.size(); ++i)
+    is_open[i] = !half_edges.find({half_edges.edge(i).second, half_edges.edge(i).first});
   std::vector<std::vector<std::int32_t>> loops;
-  for (auto& [start, unused] : open) {
-    if (!unused) continue;
+  for (std::size_t start = 0; start < is_open.size(); ++start) {
+    if (!is_open[start]) continue;
     std::vector<std::int32_t> loop;
-    for (HalfEdge edge = start; open.at(edge); edge = next_boundary(apex, edge)) {
-      open.at(edge) = false;
-      loop.push_back(edge.first);
+    for (std::size_t i = start; is_open[i]; i = half_edges.next_boundary(i)) {
+      is_open[i] = 0;
+      loop.push_back(half_edges.edge(i).first);
     }
     loops.push_back(std::move(loop));
   }

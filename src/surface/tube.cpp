@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "surface/raise_worst.h"
 #include "surface/symmetric_table.h"
 #include "surface/tube_mesh.h"
 
@@ -143,24 +142,6 @@ std::optional<TubeTable> QuadTube::symmetric_table(int rows, const TubeOptions& 
 QuadPatch QuadTube::laid(const TubeTable& table, int rows) const {
   const Rows laid = lay_rows(lengths_, domain_->a.depth, domain_->b.depth, rows);
   return lifted(mesh_of(table, side_a_, side_b_, laid.share), chart_, laid, *domain_);
-}
-
-QuadPatch QuadTube::made(const TubeTable& table, int rows, const WantedSurface& surface,
-                         bool is_polished) const {
-  QuadPatch patch = laid(table, rows);
-  if (is_polished) polish(patch, surface.project);
-  raise_worst(patch, surface);
-  return patch;
-}
-
-std::optional<QuadPatch> QuadTube::made_symmetric(const TubeTable& table, int rows,
-                                                  const WantedSurface& surface, const PatchMirror& borders,
-                                                  bool is_polished) const {
-  QuadPatch patch = laid(table, rows);
-  const auto mirror = mirror_of(patch, borders);
-  if (!mirror) return std::nullopt;
-  polish_symmetric(patch, surface, *mirror, is_polished);
-  return patch;
 }
 
 }  // namespace skinforge

@@ -28,15 +28,8 @@ class QuadTube {
   std::optional<TubeTable> symmetric_table(int rows, const TubeOptions& options,
                                            const PatchMirror& borders) const;
 
-  /// The tube of a table. Vertices: the fixed ones of the domain, those of its seams, the new ones.
-  /// `is_polished`: places are evened out first, which serves all but thin and sharp shapes.
-  QuadPatch made(const TubeTable& table, int rows, const WantedSurface& surface, bool is_polished) const;
-
-  /// The same, with the images of new vertices exactly across the plane; none when the table is not mirrored.
-  std::optional<QuadPatch> made_symmetric(const TubeTable& table, int rows, const WantedSurface& surface,
-                                          const PatchMirror& borders, bool is_polished) const;
-
-  /// The same as it lies on the domain, not smoothed yet.
+  /// The tube of a table as it lies on the domain, not smoothed yet. Vertices: the fixed ones of the domain,
+  /// those of its seams, the new ones.
   QuadPatch laid(const TubeTable& table, int rows) const;
 
  private:

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "surface/best_tube.h"
+#include "surface/improve_faces.h"
 #include "surface/patch_parts.h"
 #include "surface/quad_gate.h"
-#include "surface/raise_worst.h"
 #include "surface/shapes.h"
 #include "surface/tube.h"
 
@@ -116,7 +116,7 @@ TEST(TubeDomains, TubesWithSeamsAreWatertight) {
     ASSERT_TRUE(tube) << fault;
     const auto table = tube->table(tube->wanted_rows(), {});
     ASSERT_TRUE(table);
-    const QuadPatch quads = tube->made(*table, tube->wanted_rows(), Board::surface(), true);
+    const QuadPatch quads = testing::finished(tube->laid(*table, tube->wanted_rows()), Board::surface());
     EXPECT_TRUE(quads.triangles.empty());
     const TrianglePatch halves = halved(quads);
     for (const auto& [edge, uses] : testing::half_edge_uses(halves.triangles)) EXPECT_EQ(uses, 1);
@@ -146,7 +146,7 @@ TEST(SplitParts, EachPartHasItsLoops) {
 }
 
 // Nine squares of a chessboard whose inner vertex was dragged over its neighbour: it comes back.
-TEST(RaiseWorst, AFoldedVertexComesBack) {
+TEST(ImproveFaces, AFoldedVertexComesBack) {
   QuadPatch patch;
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 3; ++x)
@@ -155,7 +155,7 @@ TEST(RaiseWorst, AFoldedVertexComesBack) {
   patch.positions.emplace_back(1.9, 1.7, 0);
   patch.quads = {{0, 1, 8, 3}, {1, 2, 4, 8}, {3, 8, 6, 5}, {8, 4, 7, 6}};
   const double before = least_scaled_jacobian(patch);
-  raise_worst(patch, Board::surface());
+  for (const FaceGoal goal : {FaceGoal::All, FaceGoal::Worst}) improve_faces(patch, Board::surface(), goal);
   EXPECT_GT(least_scaled_jacobian(patch), before + 0.2);
   EXPECT_GT(least_scaled_jacobian(patch), 0.5);
 }

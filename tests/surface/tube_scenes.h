@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "surface/improve_faces.h"
 #include "surface/junction_loop.h"
 #include "surface/remesh.h"
 #include "surface/ring_zip.h"
@@ -23,6 +24,15 @@ inline std::vector<double> even_heights(int rows) {
   std::vector<double> heights;
   for (int r = 0; r <= rows; ++r) heights.push_back(static_cast<double>(r) / rows);
   return heights;
+}
+
+/// A tube whose vertices were brought to where its faces are good.
+inline QuadPatch finished(QuadPatch patch, const WantedSurface& surface,
+                          const PatchMirror* mirror = nullptr) {
+  polish(patch, surface.project);
+  if (mirror) make_symmetric(patch, *mirror);
+  for (const FaceGoal goal : {FaceGoal::All, FaceGoal::Worst}) improve_faces(patch, surface, goal, mirror);
+  return patch;
 }
 
 /// The wall of a cylinder of radius 1 about the y axis, remeshed: borders of n and m vertices.

@@ -148,7 +148,7 @@ void make_tube(const Wall& wall, QuadPatch& tube) {
   ASSERT_TRUE(tubes) << fault;
   const auto table = tubes->table(tubes->wanted_rows(), {});
   ASSERT_TRUE(table);
-  tube = tubes->made(*table, tubes->wanted_rows(), Wall::surface(), true);
+  tube = testing::finished(tubes->laid(*table, tubes->wanted_rows()), Wall::surface());
 }
 
 // Same counts: rows and columns of rectangles as deep as they are wide.

@@ -1,4 +1,4 @@
-#include "surface/raise_worst.h"
+#include "surface/improve_faces.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -16,13 +16,8 @@ namespace {
 constexpr double kOff = 0.5, kOffWeight = 0.2, kEvenWeight = 0.2, kFlat = 1e-3, kFacing = 0.2,
                  kFacingWeight = 4;
 
-// Two passes (ours): first all faces gain, then the worst above all and the rest counts little.
-struct Pass {
-  bool is_last;  // the sixth power of the lack of quality instead of its cube
-  double rest;   // factor of all that counts beside it
-};
-constexpr Pass kPasses[] = {{false, 1}, {true, 0.1}};
-constexpr int kRounds = 10;  // of each pass
+constexpr double kRestWorst = 0.1;  // ours: what all that counts beside it is worth to the worst face
+constexpr int kRounds = 10;
 constexpr double kFirstStep = 0.6,
                  kShrink = 0.8;  // ours: how far is asked and gone, of the mean edge at the vertex
 constexpr double kDamping =
@@ -30,10 +25,12 @@ constexpr double kDamping =
 
 class Search {
  public:
-  Search(QuadPatch& patch, const WantedSurface& surface, const PatchMirror* mirror)
+  Search(QuadPatch& patch, const WantedSurface& surface, FaceGoal goal, const PatchMirror* mirror)
       : patch_(patch),
         surface_(surface),
         mirror_(mirror),
+        goal_(goal),
+        rest_(goal == FaceGoal::Worst ? kRestWorst : 1),
         faces_(patch.positions.size()),
         facing_weight_(std::isfinite(surface.voxel) ? kFacingWeight : 0),
         seen_(patch.quads.size() + patch.triangles.size()) {
@@ -41,18 +38,14 @@ class Search {
       for (const std::int32_t v : face(f)) faces_[v].push_back(f);
   }
 
-  // Every free vertex towards less badness, all faces in sum, later the worst above all. No place is compared
-  // with another: where a vertex goes depends on all numbers continuously, so equal inputs at two scales stay
-  // alike.
+  // Every free vertex towards less badness. No place is compared with another: where a vertex goes depends on
+  // all numbers continuously, so equal inputs at two scales stay alike.
   void run() {
-    for (const Pass& pass : kPasses) {
-      pass_ = pass;
-      double step = kFirstStep;
-      for (int round = 0; round < kRounds; ++round, step *= kShrink) {
-        look();
-        for (std::size_t v = patch_.fixed; v < patch_.positions.size(); ++v)
-          if (!faces_[v].empty() && is_leading(v)) descend(static_cast<std::int32_t>(v), step);
-      }
+    double step = kFirstStep;
+    for (int round = 0; round < kRounds; ++round, step *= kShrink) {
+      look();
+      for (std::size_t v = patch_.fixed; v < patch_.positions.size(); ++v)
+        if (!faces_[v].empty() && is_leading(v)) descend(static_cast<std::int32_t>(v), step);
     }
   }
 
@@ -106,9 +99,10 @@ class Search {
     }
   }
 
-  // In sum over the faces around. A cube weighs the worst most, and still gains from all; what is off the
-  // surface by more than the gate allows for most faces counts, too, and what all but turns away from it, as
-  // faces do that span a thin part, where the field in their middle is flat (ours).
+  // In sum over the faces around. A cube weighs the worst most, and still gains from all, its square the
+  // worst above all; what is off the surface by more than the gate allows for most faces counts, too, and
+  // what all but turns away from it, as faces do that span a thin part, where the field in their middle is
+  // flat (ours).
   double badness_around(std::int32_t v) const {
     double sum = 0;
     for (const std::size_t f : faces_[v]) {
@@ -119,7 +113,7 @@ class Search {
       const double bad = 1 - quality(s, facing),
                    off = std::max(std::abs(distance) / surface_.voxel - kOff, 0.0);
       const double cube = bad * bad * bad;
-      sum += (pass_.is_last ? cube * cube : cube) + pass_.rest * kOffWeight * off * off +
+      sum += (goal_ == FaceGoal::Worst ? cube * cube : cube) + rest_ * kOffWeight * off * off +
              facing_weight_ * away * away;
     }
     return sum;
@@ -169,14 +163,14 @@ class Search {
     const auto badness = [&](const Vec3& place) {
       this->move(v, place);
       return badness_around(v) +
-             pass_.rest * kEvenWeight * (place - at->middle).squaredNorm() / (at->length * at->length);
+             rest_ * kEvenWeight * (place - at->middle).squaredNorm() / (at->length * at->length);
     };
     const double here = badness(start);
     Vec3 step_taken = Vec3::Zero();
     for (const Vec3& axis : {at->x, at->y}) {
       const double ahead = badness(start + reach * axis), behind = badness(start - reach * axis);
       const double slope = (ahead - behind) / 2, curvature = ahead + behind - 2 * here;
-      step_taken -= slope / (std::abs(curvature) + std::abs(slope) + pass_.rest * kFlat) * reach * axis;
+      step_taken -= slope / (std::abs(curvature) + std::abs(slope) + rest_ * kFlat) * reach * axis;
     }
     move(v, surface_.project(start + kDamping * step_taken));
   }
@@ -184,9 +178,10 @@ class Search {
   QuadPatch& patch_;
   const WantedSurface& surface_;
   const PatchMirror* mirror_;
+  FaceGoal goal_;
+  double rest_;  // what counts beside the lack of quality, by this
   std::vector<std::vector<std::size_t>> faces_;
   double facing_weight_;  // 0 where the way outward is a guess
-  Pass pass_ = kPasses[0];
   struct Seen {
     Vec3 centre, outward;
     double distance;
@@ -196,17 +191,8 @@ class Search {
 
 }  // namespace
 
-void raise_worst(QuadPatch& patch, const WantedSurface& surface, const PatchMirror* mirror) {
-  Search(patch, surface, mirror).run();
-}
-
-void polish_symmetric(QuadPatch& patch, const WantedSurface& surface, const PatchMirror& mirror,
-                      bool is_polished) {
-  const WantedSurface both = mirrored(surface, mirror.plane);
-  make_symmetric(patch, mirror);
-  if (is_polished) polish(patch, both.project);
-  make_symmetric(patch, mirror);  // but for rounding it is
-  raise_worst(patch, both, &mirror);
+void improve_faces(QuadPatch& patch, const WantedSurface& surface, FaceGoal goal, const PatchMirror* mirror) {
+  Search(patch, surface, goal, mirror).run();
 }
 
 }  // namespace skinforge
