@@ -22,7 +22,7 @@ std::string joined(const std::vector<std::string>& words, const char* between = 
 std::string quoted(const std::string& text) {
   std::string safe;
   for (const char c : text) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return "'" + safe + "'";
+  return fmt::format("'{}'", safe);
 }
 
 std::vector<std::string> option_names(const VerbWords& verb) {
@@ -83,7 +83,8 @@ std::string zsh_option(const VerbWords::Option& option) {
                             : option.choices.empty() ? ":value:_files"
                                                      : ":value:(" + joined(option.choices) + ")";
   std::string text;
-  for (const std::string& name : option.names) text += " " + quoted(name + "[" + what + "]" + value);
+  for (const std::string& name : option.names)
+    text += fmt::format(" {}", quoted(fmt::format("{}[{}]{}", name, what, value)));
   return text;
 }
 

@@ -104,7 +104,7 @@ class JsonParser {
     if (is_end()) return "the end of the file";
     std::size_t length = 1;
     while (at_ + length < text_.size() && is_continuation(text_[at_ + length])) ++length;
-    return "\"" + printable(text_.substr(at_, length)) + "\"";
+    return fmt::format("\"{}\"", printable(text_.substr(at_, length)));
   }
 
   Value value(int depth) {

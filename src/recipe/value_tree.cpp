@@ -130,14 +130,11 @@ std::string value_text(const Value& value) {
     case Value::Kind::String:
       return quoted(value.text);
     case Value::Kind::Array:
-      return "[" + joined(value.items, value_text) + "]";
+      return fmt::format("[{}]", joined(value.items, value_text));
     case Value::Kind::Object:
-      return "{" +
-             joined(value.members,
-                    [](const Value::Member& member) {
-                      return quoted(member.key) + ": " + value_text(member.value);
-                    }) +
-             "}";
+      return fmt::format("{{{}}}", joined(value.members, [](const Value::Member& member) {
+                           return quoted(member.key) + ": " + value_text(member.value);
+                         }));
   }
   return {};
 }

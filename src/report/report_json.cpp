@@ -167,7 +167,7 @@ void print(const Json& value, std::size_t indent, std::string& text) {
     if (value.is_object()) text += Json(item.key()).dump() + ": ";
     print(item.value(), indent + 2, text);
   }
-  text += "\n" + std::string(indent, ' ') + (value.is_array() ? "]" : "}");
+  text.append(1, '\n').append(indent, ' ').append(1, value.is_array() ? ']' : '}');
 }
 
 std::string printed(const Json& value) try {

@@ -1,5 +1,7 @@
 #include "stages/stage_settings.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "recipe/schema_properties.h"
@@ -79,7 +81,7 @@ bool is_of_instance(const StageInfo& stage, std::string_view setting) {
       stage.name == "import" || stage.name == "rig" || stage.name == "pose" || stage.name == "adopt";
   if (is_of_input && setting.starts_with("/inputs/")) return step(setting, 1) == stage.instance;
   if (stage.name == "field" && setting.starts_with("/ops/"))
-    return std::to_string(std::stoul("0" + std::string(step(setting, 1))) + 1) == stage.instance;
+    return std::to_string(std::stoul(fmt::format("0{}", step(setting, 1))) + 1) == stage.instance;
   return true;
 }
 
