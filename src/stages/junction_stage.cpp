@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "stages/junction_symmetry.h"
@@ -131,6 +132,7 @@ class MakeJunctions final : public Stage {
   }
 
   void smooth(Round& round, IssueSink& issues) const {
+    if (std::all_of(smoothing_.begin(), smoothing_.end(), [](int rounds) { return rounds == 0; })) return;
     const KeptSurface kept = kept_surface(round.sources);
     for (std::size_t k = 0; k < site_count_; ++k) {
       if (smoothing_[k] == 0 || round.junctions[k].patch.triangles.empty()) continue;

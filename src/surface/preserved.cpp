@@ -33,15 +33,21 @@ int border_edge_count(const PolygonMesh& mesh, const EdgeList& edges, const Face
   return count;
 }
 
+const Edge& edge_between(const EdgeList& edges, VertexId a, VertexId b) {
+  const std::array<VertexId, 2> ends = {std::min(a, b), std::max(a, b)};
+  return *std::lower_bound(
+      edges.edges.begin(), edges.edges.end(), ends,
+      [](const Edge& e, const std::array<VertexId, 2>& wanted) { return e.vertices < wanted; });
+}
+
 // The site that most of the discarded faces along a chain belong to.
 std::int32_t site_of_chain(const EdgeList& edges, const SourceSelection& selection,
-                           const std::map<std::pair<VertexId, VertexId>, std::int32_t>& edge_index,
                            const BorderChain& chain) {
   std::map<std::int32_t, int> votes;
   const std::size_t n = chain.vertices.size(), count = chain.is_closed ? n : n - 1;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto key = std::minmax(chain.vertices[i], chain.vertices[(i + 1) % n]);
-    for (const std::int32_t corner : edges.edges[edge_index.at(key)].half_edges) {
+    for (const std::int32_t corner :
+         edge_between(edges, chain.vertices[i], chain.vertices[(i + 1) % n]).half_edges) {
       const std::size_t f = edges.face_of_corner[corner].index();
       if (!selection.kept[f]) ++votes[selection.face_site[f]];
     }
@@ -53,21 +59,22 @@ std::int32_t site_of_chain(const EdgeList& edges, const SourceSelection& selecti
   return best;
 }
 
-// Neighbours of a border vertex on kept faces that are not on the border themselves.
-std::vector<Vec3> inward_neighbours(const PolygonMesh& mesh, const SourceSelection& selection,
-                                    const EdgeList& edges,
-                                    const std::vector<std::vector<std::int32_t>>& edges_of_vertex,
-                                    const std::set<VertexId>& border, VertexId v) {
-  std::vector<Vec3> neighbours;
-  for (const std::int32_t e : edges_of_vertex[v.index()]) {
-    const Edge& edge = edges.edges[e];
-    const VertexId other = edge.vertices[0] == v ? edge.vertices[1] : edge.vertices[0];
-    const bool is_kept = std::any_of(
-        edge.half_edges.begin(), edge.half_edges.end(),
-        [&](std::int32_t corner) { return selection.kept[edges.face_of_corner[corner].index()] != 0; });
-    if (is_kept && !border.contains(other)) neighbours.push_back(mesh.positions[other.index()]);
+// Adds to each border vertex its neighbours on kept faces that are not on the border themselves.
+void add_inward_neighbours(const PolygonMesh& mesh, const EdgeList& edges, const FaceSet& kept,
+                           JunctionLoop& loop) {
+  std::map<VertexId, std::size_t> place;
+  for (std::size_t i = 0; i < loop.vertices.size(); ++i) place[loop.vertices[i]] = i;
+  loop.inward.resize(loop.vertices.size());
+  for (const Edge& edge : edges.edges) {
+    const auto first = place.find(edge.vertices[0]), second = place.find(edge.vertices[1]);
+    if ((first == place.end()) == (second == place.end())) continue;
+    const bool is_kept =
+        std::any_of(edge.half_edges.begin(), edge.half_edges.end(),
+                    [&](std::int32_t corner) { return kept[edges.face_of_corner[corner].index()] != 0; });
+    if (!is_kept) continue;
+    const VertexId inner = edge.vertices[first == place.end() ? 0 : 1];
+    loop.inward[(first == place.end() ? second : first)->second].push_back(mesh.positions[inner.index()]);
   }
-  return neighbours;
 }
 
 void tidy(const PolygonMesh& mesh, const EdgeList& edges, const PreserveOptions& options, FaceSet& kept) {
@@ -153,7 +160,7 @@ std::size_t discard_faces(std::span<PreservedSource> sources, std::span<const Si
 void clean_borders(PreservedSource& source, const PreserveOptions& options) {
   const PolygonMesh& mesh = *source.mesh;
   FaceSet& kept = source.selection.kept;
-  const EdgeList edges = build_edges(mesh);
+  const EdgeList& edges = *source.edges;
   const FaceSet before = kept;
   tidy(mesh, edges, options, kept);
   const auto has_any = [](const FaceSet& set) { return std::find(set.begin(), set.end(), 1) != set.end(); };
@@ -167,18 +174,10 @@ void clean_borders(PreservedSource& source, const PreserveOptions& options) {
 std::vector<JunctionLoop> loops_of_sites(const PreservedSource& source, SourceId id,
                                          std::span<const std::size_t> sites, bool is_host, int& arcs) {
   const PolygonMesh& mesh = *source.mesh;
-  const EdgeList edges = build_edges(mesh);
-  std::map<std::pair<VertexId, VertexId>, std::int32_t> edge_index;
-  std::vector<std::vector<std::int32_t>> edges_of_vertex(mesh.vertex_count());
-  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
-    const auto& [a, b] = edges.edges[e].vertices;
-    edge_index[{a, b}] = static_cast<std::int32_t>(e);
-    edges_of_vertex[a.index()].push_back(static_cast<std::int32_t>(e));
-    edges_of_vertex[b.index()].push_back(static_cast<std::int32_t>(e));
-  }
+  const EdgeList& edges = *source.edges;
   std::vector<JunctionLoop> loops;
   for (const BorderChain& chain : border_chains(mesh, edges, source.selection.kept)) {
-    const std::int32_t owner = site_of_chain(edges, source.selection, edge_index, chain);
+    const std::int32_t owner = site_of_chain(edges, source.selection, chain);
     if (owner < 0 || std::find(sites.begin(), sites.end(), static_cast<std::size_t>(owner)) == sites.end())
       continue;
     if (!chain.is_closed || chain.vertices.size() < 3) {
@@ -186,11 +185,8 @@ std::vector<JunctionLoop> loops_of_sites(const PreservedSource& source, SourceId
       continue;
     }
     JunctionLoop loop{id, is_host, chain.vertices, {}, {}};
-    const std::set<VertexId> border(chain.vertices.begin(), chain.vertices.end());
-    for (const VertexId v : chain.vertices) {
-      loop.positions.push_back(mesh.positions[v.index()]);
-      loop.inward.push_back(inward_neighbours(mesh, source.selection, edges, edges_of_vertex, border, v));
-    }
+    for (const VertexId v : chain.vertices) loop.positions.push_back(mesh.positions[v.index()]);
+    add_inward_neighbours(mesh, edges, source.selection.kept, loop);
     loops.push_back(std::move(loop));
   }
   return loops;

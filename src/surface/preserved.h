@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/id.h"
+#include "geometry/edges.h"
 #include "surface/junction_loop.h"
 #include "surface/selection.h"
 #include "surface/site_field.h"
@@ -12,8 +15,14 @@ namespace skinforge {
 
 /// One placed source with what stays of it. Indexed by SourceId.
 struct PreservedSource {
-  const PolygonMesh* mesh = nullptr;  ///< placed
-  SourceSelection selection;          ///< `kept` and `face_site` are worked on
+  const PolygonMesh* mesh;                ///< placed
+  SourceSelection selection;              ///< `kept` and `face_site` are worked on
+  std::shared_ptr<const EdgeList> edges;  ///< of the mesh
+
+  PreservedSource(const PolygonMesh* placed, SourceSelection selected)
+      : mesh(placed),
+        selection(std::move(selected)),
+        edges(std::make_shared<const EdgeList>(build_edges(*placed))) {}
 };
 
 struct PreserveOptions {

@@ -140,8 +140,8 @@ TEST_P(SymmetricTube, DeviationIsExactlyZero) {
   const QuadPatch laid = tube->laid(*table, tube->wanted_rows());
   const auto mirror = mirror_of(laid, borders);
   ASSERT_TRUE(mirror);
-  const WantedSurface wall = Wall::surface();
-  const QuadPatch made = testing::finished(laid, mirrored(wall, mirror->plane), &*mirror);
+  const WantedSurface cylinder = Wall::surface();
+  const QuadPatch made = testing::finished(laid, mirrored(cylinder, mirror->plane), &*mirror);
   EXPECT_GE(least_scaled_jacobian(made), 0.2);
   EXPECT_EQ(made.triangles.size(), static_cast<std::size_t>((n + m) % 2));
   for (std::size_t v = made.fixed; v < made.positions.size(); ++v)

@@ -9,6 +9,7 @@
 #include "surface/quad_gate.h"
 #include "surface/shapes.h"
 #include "surface/tube.h"
+#include "surface/tube_scenes.h"
 
 namespace skinforge {
 namespace {
