@@ -2,8 +2,8 @@
 # Fuzzes every parser of untrusted bytes (tests/fuzz) with ASan and UBSan, each for so many minutes; needs clang.
 #   scripts/fuzz.sh [MINUTES] [TARGET ...]        default 1 minute, all targets
 #   scripts/fuzz.sh --coverage [TARGET ...]       lines of the parsers' files that the inputs so far reach; fails below 90 %
-# Seeds: the hostile corpus and the assets of SKINFORGE_SHARED (default ../shared) where they are, data/ and recipes/. What the
-# fuzzers learn stays in build/fuzz/corpus/TARGET; a finding lands in build/fuzz/findings and fails the script. A fixed finding
+# Seeds: the hostile corpus and the assets of SKINFORGE_SHARED (default ../shared) where they are, data/ and recipes/, and what
+# scripts/fuzz_seeds.py makes. What the fuzzers learn stays in build/fuzz/corpus/TARGET; a finding lands in build/fuzz/findings and fails the script. A fixed finding
 # becomes a file in tests/data/fuzz/TARGET, which a test feeds to the parser.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -17,7 +17,7 @@ elif [ $# -gt 0 ]; then
 fi
 shared=$(realpath -m -- "${SKINFORGE_SHARED:-../shared}")
 targets=("$@")
-[ $# -gt 0 ] || targets=(gltf character scene fbx obj dae off tgf dmat image cache recipe_json recipe_yaml)
+[ $# -gt 0 ] || targets=(gltf character scene rules fbx obj dae off tgf dmat image cache recipe_json recipe_yaml)
 
 if ! command -v clang++ >/dev/null; then
   echo "fuzz.sh needs clang (Debian: clang, llvm)" >&2
@@ -55,6 +55,7 @@ cache_seeds() {
     build/release/skinforge build recipes/tail.json --report none --cache $cache --out build/fuzz/out >/dev/null 2>&1 || true
   fi
   mkdir -p $cache $folder
+  rm -f $folder/*
   find $cache -type f -size -20k | sort | head -60 | while read -r file; do
     { printf a; cat "$file"; } >"$folder/$(basename "$file")"
     { printf b; tail -n +2 "$file"; } >"$folder/$(basename "$file").json"
@@ -62,6 +63,7 @@ cache_seeds() {
 }
 
 seeds gltf glb gltf
+seeds rules glb gltf
 seeds character glb
 seeds recipe_json json
 seeds recipe_yaml yaml yml
@@ -76,6 +78,7 @@ seeds fbx fbx
 seeds image png jpg
 scene_seeds
 cache_seeds
+python3 scripts/fuzz_seeds.py build/fuzz/seeds
 mkdir -p build/fuzz/findings
 
 # The words of a recipe, which no mutation finds.
@@ -117,8 +120,8 @@ coverage() {
   done
   llvm-profdata merge -o $profile/all.profdata $profile/*.profraw
   llvm-cov export "$fuzzer" -instr-profile $profile/all.profdata -summary-only \
-    src/base/{base64,text}.cpp src/io/{gltf,build_character,fbx}_*.cpp src/io/png_chunks.cpp src/io/build_character.cpp src/io/{raw_scene_check,obj_check,dae_check,off_reader,tgf_reader,number_table,image_codec,inflate,trs}.cpp \
-    src/pipeline/{cache,cache_gc,manifest,run_record}.cpp src/recipe/*.cpp | python3 -c '
+    src/base/{base64,file_digest,text}.cpp src/io/{gltf,build_character,fbx}_*.cpp src/io/glb_{container,stamp}.cpp src/io/png_chunks.cpp src/io/build_character.cpp src/io/{raw_scene_check,obj_check,dae_check,off_reader,tgf_reader,number_table,image_codec,inflate,trs}.cpp \
+    src/pipeline/{cache,cache_gc,cache_usage,manifest,run_record}.cpp src/recipe/*.cpp | python3 -c '
 import json, sys
 files = []
 for f in json.load(sys.stdin)["data"][0]["files"]:

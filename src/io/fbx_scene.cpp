@@ -29,6 +29,13 @@ const FbxNode* property(const FbxNode& object, const std::string& name) {
   return nullptr;
 }
 
+/// A property that names one of a few: `fallback` when it is not there, 0 when it is no number that 64 bits
+/// hold.
+std::int64_t choice(const FbxNode& object, const std::string& name, std::int64_t fallback) {
+  const FbxNode* entry = property(object, name);
+  return entry && entry->values.size() >= 5 ? entry->integer(4) : fallback;
+}
+
 Quat euler(const Vec3& degrees_xyz, int order) {
   static constexpr std::array<std::array<int, 3>, 6> kOrders = {
       {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}}};
@@ -164,8 +171,7 @@ std::string FbxScene::name(std::int64_t id) const {
 double FbxScene::frame_rate() const {
   const FbxNode* settings = root_.child("GlobalSettings");
   if (!settings) return 30;
-  return rate_of_mode(static_cast<std::int64_t>(fbx_number(*settings, "TimeMode", 0)),
-                      fbx_number(*settings, "CustomFrameRate", 0));
+  return rate_of_mode(choice(*settings, "TimeMode", 0), fbx_number(*settings, "CustomFrameRate", 0));
 }
 
 bool fbx_has(const FbxNode& object, const std::string& name) {
@@ -193,7 +199,7 @@ FbxTransform::FbxTransform(const FbxNode& model)
       scaling_pivot(fbx_vector(model, "ScalingPivot", Vec3::Zero())),
       before(euler(fbx_vector(model, "PreRotation", Vec3::Zero()), 0)),
       after(euler(fbx_vector(model, "PostRotation", Vec3::Zero()), 0).conjugate()),
-      order(std::clamp(static_cast<int>(fbx_number(model, "RotationOrder", 0)), 0, 5)) {}
+      order(static_cast<int>(std::clamp<std::int64_t>(choice(model, "RotationOrder", 0), 0, 5))) {}
 
 bool FbxTransform::has_pivots() const {
   return !rotation_offset.isZero(0) || !rotation_pivot.isZero(0) || !scaling_offset.isZero(0) ||

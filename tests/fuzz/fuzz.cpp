@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "base/limits.h"
 #include "fuzz/targets.h"
 #include "io/sandbox.h"
 
@@ -13,6 +14,18 @@ namespace {
 using namespace skinforge;
 
 const fuzz::Target* chosen = nullptr;
+
+/// Far below what a user may ask for: what the tool does up to its limits only takes time.
+void tighten_limits() {
+  Limits tight;
+  tight.vertices = 100'000;
+  tight.keys = 1'000'000;
+  tight.pixels = 1 << 20;
+  tight.inflate = 1 << 24;
+  tight.memory = 1 << 28;
+  tight.frames = 10'000;
+  set_limits(tight);
+}
 
 int write_seeds(int count, char** files) {
   for (int i = 1; i < count; ++i) {
@@ -55,6 +68,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** words) {
     std::fputs("\n", stderr);
     std::exit(2);
   }
+  tighten_limits();
   return 0;
 }
 
