@@ -27,9 +27,12 @@ fi
 cmake --build --preset $preset --target skinforge_fuzz >&2
 fuzzer=$PWD/build/$preset/tests/fuzz/skinforge_fuzz
 
+is_wanted() { case " ${targets[*]} " in *" $1 "*) ;; *) return 1 ;; esac; }
+
 # Small files of these endings, from everywhere: large ones only make each trial slow.
 seeds() {
   local folder=build/fuzz/seeds/$1 ending file
+  is_wanted "$1" || return 0
   shift
   rm -rf "$folder"
   mkdir -p "$folder"
@@ -42,6 +45,7 @@ seeds() {
 # Scenes as the import child hands them over.
 scene_seeds() {
   local folder=build/fuzz/seeds/scene
+  is_wanted scene || return 0
   rm -rf $folder
   mkdir -p $folder
   find data "$shared/hostile" -type f \( -name '*.glb' -o -name '*.fbx' -o -name '*.obj' -o -name '*.dae' \) -size -40k -exec cp -f {} $folder/ \; || true
@@ -51,6 +55,7 @@ scene_seeds() {
 # Entries of a cache that a build left, with and without their header.
 cache_seeds() {
   local cache=build/fuzz/cache folder=build/fuzz/seeds/cache file
+  is_wanted cache || return 0
   if [ -x build/release/skinforge ] && [ ! -d $cache ]; then
     build/release/skinforge build recipes/tail.json --report none --cache $cache --out build/fuzz/out >/dev/null 2>&1 || true
   fi
@@ -68,6 +73,7 @@ seeds character glb
 seeds recipe_json json
 seeds recipe_yaml yaml yml
 # Their inputs must be there: without them nothing behind them is read.
+mkdir -p build/fuzz/seeds/recipe_json build/fuzz/seeds/recipe_yaml
 find build/fuzz/seeds/recipe_json build/fuzz/seeds/recipe_yaml -type f -exec sed -i -E 's#\.\./(assets|\.\./assets|models|data)/[^":, }]*#../data/horse.glb#' {} +
 seeds tgf tgf
 seeds dmat dmat
@@ -78,7 +84,7 @@ seeds fbx fbx
 seeds image png jpg
 scene_seeds
 cache_seeds
-python3 scripts/fuzz_seeds.py build/fuzz/seeds
+python3 scripts/fuzz_seeds.py build/fuzz/seeds "${targets[@]}"
 mkdir -p build/fuzz/findings
 
 # The words of a recipe, which no mutation finds.
