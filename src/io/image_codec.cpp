@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/expect.h"
 #include "base/limits.h"
+#include "base/text.h"
 #include "io/export.h"
 #include "io/png_chunks.h"
 
@@ -149,7 +150,7 @@ Raster decode_image(const Image& image) {
                             static_cast<int>(image.bytes.size()), &raster.width, &raster.height, &channels,
                             4),
       &stbi_image_free);
-  if (!pixels) bad(fmt::format("damaged {}: {}", header.mime, stbi_failure_reason()));
+  if (!pixels) bad(fmt::format("damaged {}: {}", header.mime, printable(stbi_failure_reason())));
   raster.rgba.assign(pixels.get(), pixels.get() + std::size_t{4} * raster.width * raster.height);
   return raster;
 }
