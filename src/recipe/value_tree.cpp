@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/text.h"
@@ -107,10 +108,10 @@ std::string Value::where() const {
 }
 
 namespace {
+// As JSON reads it back; words of a command line may be no UTF-8.
 std::string quoted(const std::string& text) {
-  std::string escaped = "\"";
-  for (const char c : printable(text)) escaped += c == '"' ? "\\\"" : std::string(1, c);
-  return escaped + "\"";
+  using nlohmann::json;
+  return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 }  // namespace
 

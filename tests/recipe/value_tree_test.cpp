@@ -167,5 +167,15 @@ TEST(YamlText, RefusesWhatARecipeDoesNotNeed) {
               HasSubstr("nested deeper than 32 levels"));
 }
 
+// What two strings have in common when they are printed, they have in common.
+TEST(ValueText, IsReadBackAsItWas) {
+  for (const std::string text : {"e\\nts", "a\nb", "\\x0a", "\"", "tab\t", "\x7f", "\xC3\xA9"}) {
+    Value value;
+    value.kind = Value::Kind::String;
+    value.text = text;
+    EXPECT_EQ(parse_json_text(value_text(value), "again").text, text);
+  }
+}
+
 }  // namespace
 }  // namespace skinforge
