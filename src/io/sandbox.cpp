@@ -2,24 +2,26 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <malloc.h>
-#include <pthread.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <new>
+#include <optional>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "io/assimp_reader.h"
+#include "io/import_cell.h"
 #include "io/raw_scene_check.h"
 
 extern char** environ;
@@ -27,7 +29,8 @@ extern char** environ;
 namespace skinforge {
 namespace {
 
-constexpr int kOutOfMemory = 75;  // exit status of the child; EX_TEMPFAIL of sysexits.h
+constexpr std::chrono::seconds kGrace{2};                 // ours: the child's own alarm comes first
+constexpr std::uint64_t kMostSeconds = 1'000'000'000;     // what a clock can add
 constexpr const char* kMark = "SKINFORGE_IMPORT_WORKER";  // in the environment of every worker
 
 std::string& worker_path() {
@@ -93,13 +96,30 @@ void write_all(int descriptor, std::span<const std::byte> bytes) {
   }
 }
 
-/// Up to `most` bytes; more are left unread.
-Bytes read_all(int descriptor, std::size_t most) {
+using Clock = std::chrono::steady_clock;
+
+/// Whether there is something to read before `deadline`.
+bool wait_for_bytes(int descriptor, Clock::time_point deadline) {
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    pollfd request{descriptor, POLLIN, 0};
+    constexpr long long kMost = std::numeric_limits<int>::max();
+    const int ready = ::poll(&request, 1, static_cast<int>(std::clamp<long long>(left, 0, kMost)));
+    if (ready > 0) return true;
+    if (ready == 0) return false;
+    if (errno != EINTR) system_failed("cannot listen to the importer");
+  }
+}
+
+/// Up to `most` bytes; more are left unread. None when the end is not there by `deadline`.
+std::optional<Bytes> read_all(int descriptor, std::size_t most,
+                              Clock::time_point deadline = Clock::time_point::max()) {
   constexpr std::size_t kStep = std::size_t{1} << 20;
   Bytes bytes;
   std::size_t filled = 0;
   for (;;) {
     bytes.resize(std::max(bytes.size(), filled + kStep));
+    if (deadline != Clock::time_point::max() && !wait_for_bytes(descriptor, deadline)) return std::nullopt;
     const ssize_t got = ::read(descriptor, bytes.data() + filled, bytes.size() - filled);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) system_failed("cannot read from the importer");
@@ -113,37 +133,6 @@ Bytes read_all(int descriptor, std::size_t most) {
 }
 
 // ---------------------------------------------------------------- the child
-
-void limit(int resource, std::size_t value) {
-  rlimit both{};
-  ::getrlimit(static_cast<__rlimit_resource>(resource), &both);
-  both.rlim_cur = std::min<rlim_t>(value, both.rlim_max);
-  ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
-}
-
-/// Bytes of address space that the process has now: libraries, above all.
-std::size_t mapped_now() {
-  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  Descriptor file(::open("/proc/self/statm", O_RDONLY | O_CLOEXEC));
-  char text[64] = {};
-  if (file.number() < 0 || ::read(file.number(), text, sizeof text - 1) <= 0) return 0;
-  return static_cast<std::size_t>(std::strtoull(text, nullptr, 10)) * page;
-}
-
-/// From here on the process can open no file and no socket.
-void enter_cell(const SandboxLimits& limits) {
-  ::mallopt(M_ARENA_MAX, 1);  // a second arena would reserve 64 MB of the address space
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, static_cast<std::size_t>(limits.cpu_seconds));
-  limit(RLIMIT_AS, mapped_now() + limits.address_space);
-  limit(RLIMIT_NOFILE, 3);
-  ::alarm(static_cast<unsigned>(limits.wall_seconds));
-}
-
-/// Ends the child at once: Assimp catches what it can, and would go on without the mesh that did not fit.
-[[noreturn]] void end_without_memory() {
-  ::_exit(kOutOfMemory);
-}
 
 struct Job {
   const Task* task = nullptr;
@@ -167,20 +156,8 @@ void do_job(Job& job) {
   job.answer = to_bytes(Answer{answer.error, {}});
 }
 
-void* run_job(void* data) {
+void run_job(void* data) {
   do_job(*static_cast<Job*>(data));
-  return nullptr;
-}
-
-/// Runs on a stack of its own: that of the process could not grow so far any more.
-void run_with_stack(Job& job) {
-  pthread_attr_t attributes;
-  pthread_t thread;
-  ::pthread_attr_init(&attributes);
-  ::pthread_attr_setstacksize(&attributes, job.task->limits.stack);
-  if (::pthread_create(&thread, &attributes, run_job, &job) != 0) end_without_memory();
-  ::pthread_join(thread, nullptr);
-  ::pthread_attr_destroy(&attributes);
 }
 
 // ---------------------------------------------------------------- the parent
@@ -238,6 +215,12 @@ int wait_for(pid_t child) {
   return status;
 }
 
+Error no_answer(const SandboxLimits& limits) {
+  return {
+      ExitCode::BadInput,
+      fmt::format("importer did not answer for {} s; --limit import-wait=N gives more", limits.wall_seconds)};
+}
+
 /// How the child ended, unless well.
 void check_end(int status, const SandboxLimits& limits) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
@@ -247,12 +230,13 @@ void check_end(int status, const SandboxLimits& limits) {
   if (number == 0 && WEXITSTATUS(status) == kOutOfMemory)
     how = fmt::format("importer needs more than {} MB of memory; --limit import-memory=N gives more",
                       limits.address_space >> 20);
+  if (number == 0 && WEXITSTATUS(status) == kOutOfStack)
+    how = fmt::format("importer needs more than {} MB of stack; --limit import-stack=N gives more",
+                      limits.stack >> 20);
   if (number == SIGXCPU || number == SIGKILL)
     how =
         fmt::format("importer took more than {} s; --limit import-seconds=N gives more", limits.cpu_seconds);
-  if (number == SIGALRM)
-    how = fmt::format("importer did not answer for {} s; --limit import-wait=N gives more",
-                      limits.wall_seconds);
+  if (number == SIGALRM) throw no_answer(limits);
   throw Error(ExitCode::BadInput, how);
 }
 
@@ -274,10 +258,15 @@ Answer ask_worker(const std::vector<InputFile>& files, const SandboxLimits& limi
   const pid_t child = start_worker(files.front().path, task.number(), answer_out.number());
   answer_out.reset();
   task.reset();
-  const Bytes bytes = read_all(answer_in.number(), limits.address_space);  // it had to fit in there
+  const auto deadline =
+      Clock::now() + std::chrono::seconds(std::min(limits.wall_seconds, kMostSeconds)) + kGrace;
+  const auto bytes = read_all(answer_in.number(), limits.address_space, deadline);  // it had to fit in there
   answer_in.reset();
-  check_end(wait_for(child), limits);
-  return parse_answer(bytes);
+  if (!bytes) ::kill(child, SIGKILL);
+  const int status = wait_for(child);
+  if (!bytes) throw no_answer(limits);
+  check_end(status, limits);
+  return parse_answer(*bytes);
 }
 
 }  // namespace
@@ -298,13 +287,13 @@ void set_import_worker(std::string executable) {
 
 int import_worker_main(int, char**) {
   try {
-    const auto task = from_bytes<Task>(read_all(STDIN_FILENO, std::numeric_limits<std::size_t>::max()));
+    const auto task = from_bytes<Task>(*read_all(STDIN_FILENO, std::numeric_limits<std::size_t>::max()));
     set_limits(task.of_scene);
     if (task.files.empty()) return 1;
     std::set_new_handler(end_without_memory);
     enter_cell(task.limits);
     Job job{&task, {}, {}};
-    run_with_stack(job);
+    run_on_stack(task.limits.stack, run_job, &job);
     write_all(STDOUT_FILENO, job.answer);
     ::_exit(0);
   } catch (const std::exception&) {

@@ -21,9 +21,10 @@ struct SandboxLimits {
 };
 
 /// Reads `files` with Assimp (assimp_reader.h) in a new process. The child gets the bytes, can open neither
-/// files nor sockets, writes no core, and hands the scene back through a pipe; it is checked
-/// (`check_raw_scene`) before it is returned. Throws Error (BadInput), one line: the message of the reader,
-/// "FILE: importer crashed (signal 11)", "... took more than 10 s", "... needs more than ... of memory".
+/// files nor sockets and start no process, writes no core (import_cell.h), and hands the scene back through a
+/// pipe; it is checked (`check_raw_scene`) before it is returned. Throws Error (BadInput), one line: the
+/// message of the reader, "FILE: importer crashed (signal 11)", "... took more than 10 s", "... needs more
+/// than ... of memory", "... of stack", "... did not answer for 120 s".
 RawScene read_in_child(const std::vector<InputFile>& files, const SandboxLimits& limits = {});
 
 /// The program started as worker; its `main` must hand `--import-worker` to `import_worker_main` before all

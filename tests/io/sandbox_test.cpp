@@ -1,11 +1,24 @@
 #include "io/sandbox.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/ptrace.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <optional>
+#include <thread>
 
 #include "base/archive.h"
 #include "base/error.h"
+#include "io/import_cell.h"
 #include "testing/assets.h"
+#include "testing/temporary_folder.h"
 
 namespace skinforge {
 namespace {
@@ -60,11 +73,106 @@ TEST(Sandbox, UnknownFormatIsOneLine) {
   EXPECT_THAT(refusal({file_of("notes.docx", "nothing of the kind")}), StartsWith("notes.docx: "));
 }
 
-// A COLLADA node that contains itself runs Assimp out of its stack.
+/// A program of the shell that is started as the worker.
+class ScriptWorker {
+ public:
+  explicit ScriptWorker(const std::string& commands) {
+    const std::filesystem::path path = folder_ / "worker";
+    std::ofstream(path) << "#!/bin/sh\n" << commands << "\n";
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    worker_.emplace(path.c_str());
+  }
+
+ private:
+  testing::TemporaryFolder folder_;
+  std::optional<OtherWorker> worker_;
+};
+
 TEST(Sandbox, CrashIsOneLine) {
+  const ScriptWorker worker("kill -SEGV $$");
+  EXPECT_EQ(refusal({file_of("flat.obj", kTriangle)}), "flat.obj: importer crashed (signal 11)");
+}
+
+// A COLLADA node that contains itself runs Assimp out of any stack.
+TEST(Sandbox, EndlessRecursionIsOneLine) {
   SKINFORGE_NEEDS_SHARED();
-  EXPECT_THAT(refusal_of_shared("hostile/gen/dae/node_cycle.dae"),
-              HasSubstr("node_cycle.dae: importer crashed (signal 11)"));
+  EXPECT_THAT(
+      refusal_of_shared("hostile/gen/dae/node_cycle.dae"),
+      EndsWith(
+          "node_cycle.dae: importer needs more than 512 MB of stack; --limit import-stack=N gives more"));
+}
+
+/// Nodes inside each other, so many levels deep.
+std::string nested_nodes(int levels) {
+  std::string text = "<COLLADA version=\"1.4.1\"><library_visual_scenes><visual_scene id=\"s\">";
+  for (int i = 0; i < levels; ++i) text += fmt::format("<node id=\"n{0}\" name=\"n{0}\">", i);
+  for (int i = 0; i < levels; ++i) text += "</node>";
+  return text +
+         "</visual_scene></library_visual_scenes><scene><instance_visual_scene "
+         "url=\"#s\"/></scene></COLLADA>";
+}
+
+TEST(Sandbox, StackLimitIsOneLine) {
+  SandboxLimits limits;
+  const auto file = file_of("deep.dae", nested_nodes(1000));
+  EXPECT_GE(read_in_child({file}, limits).nodes.size(), 1000u);
+  limits.stack = std::size_t{128} << 10;
+  EXPECT_EQ(refusal({file}, limits),
+            "deep.dae: importer needs more than 0 MB of stack; --limit import-stack=N gives more");
+}
+
+TEST(Sandbox, AWorkerThatSleepsIsNotWaitedFor) {
+  SandboxLimits limits;
+  limits.wall_seconds = 0;
+  {
+    const ScriptWorker worker("exec sleep 60");
+    EXPECT_EQ(refusal({file_of("flat.obj", kTriangle)}, limits),
+              "flat.obj: importer did not answer for 0 s; --limit import-wait=N gives more");
+  }
+  limits.wall_seconds = 60;
+  EXPECT_EQ(read_in_child({file_of("flat.obj", kTriangle)}, limits).meshes.size(), 1u);
+}
+
+/// What is left to a process behind the filter: the number of the first wrong answer, 0 when all are right.
+int first_wrong_answer(pid_t parent, int pipe) {
+  if (!allow_only_computing()) return 100;
+  const auto is_refused = [](long answer) { return answer == -1 && errno == EPERM; };
+  const char* const none[] = {nullptr};
+  const bool answers[] = {
+      is_refused(::socket(AF_INET, SOCK_STREAM, 0)),
+      is_refused(::socket(AF_UNIX, SOCK_STREAM, 0)),
+      is_refused(::open("/etc/hostname", O_RDONLY)),
+      is_refused(::open("/tmp/skinforge-not-there", O_RDWR | O_CREAT, 0600)),
+      is_refused(::unlink("/tmp/skinforge-not-there")),
+      is_refused(::fork()),
+      is_refused(::execve("/bin/true", const_cast<char**>(none), const_cast<char**>(none))),
+      is_refused(::kill(parent, 0)),
+      is_refused(::syscall(SYS_tgkill, parent, parent, 0)),
+      is_refused(::ptrace(PTRACE_ATTACH, parent, nullptr, nullptr)),
+      ::alarm(0) == static_cast<unsigned>(-1),
+      std::vector<char>(std::size_t{64} << 20, 'x').back() == 'x',
+      ::write(pipe, "x", 1) == 1,
+  };
+  for (std::size_t i = 0; i < std::size(answers); ++i)
+    if (!answers[i]) return static_cast<int>(i) + 1;
+  bool has_run = false;
+  std::thread([&] { has_run = is_refused(::socket(AF_INET, SOCK_STREAM, 0)); }).join();
+  return has_run ? 0 : 99;
+}
+
+// Nothing but memory, threads and what is open.
+TEST(Sandbox, TheCellLeavesOnlyComputing) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const pid_t parent = ::getpid(), child = ::fork();
+  if (child == 0) ::_exit(first_wrong_answer(parent, ends[1]));
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ::close(ends[0]);
+  ::close(ends[1]);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 100) GTEST_SKIP() << "this kernel has no filter of system calls";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST(Sandbox, MemoryLimitIsOneLine) {
