@@ -93,6 +93,7 @@ struct CommandLine {
   bool keep_going = false;
   bool fail_fast = false;             ///< as without keep_going; said aloud
   bool retry_failed = false;          ///< run again what failed before with the same key
+  bool verify = false;                ///< build: run what the cache knows, too, and compare
   std::string junit, sarif, summary;  ///< build: files; empty: none
   double max_age_days = 0;            ///< cache gc; 0: any
   double memory_gb = 0;               ///< build; 0: any

@@ -34,6 +34,7 @@ const std::map<std::string, std::string>& topics() {
   cache gc --max-size GB --max-age DAYS   what was not asked for longest goes first
   cache pin RECIPE      the last build of a recipe stays
   cache verify          reads everything, takes away what is damaged
+  build --verify        runs what is known, too, and fails (status 7) where a stage gives other bytes
   plan, explain, graph  what would run, why, and what depends on what
 )"},
                                                              {"recipe", R"(Recipes

@@ -24,6 +24,11 @@ void VerbTree::add_recipe_verbs() {
                  "Run stages again that failed before with the same inputs and parameters")
       ->group("Recipes");
   build
+      ->add_flag(
+          "--verify", line.verify,
+          "Run stages whose results are in the cache, too, and fail (status 7) where one gives other bytes")
+      ->group("Cache and speed");
+  build
       ->add_option("--memory", line.memory_gb,
                    "Start no stage beside another while the program holds more than this")
       ->check(CLI::Range(0.0, 1e6).description(""))

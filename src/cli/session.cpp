@@ -61,6 +61,7 @@ Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console&
                        .observer = &progress_,
                        .remembers_failure = would_fail_again,
                        .retry_failed = line.retry_failed,
+                       .verify = line.verify,
                        .settings = recipe_settings(recipe_),
                        .reads_setting = reads_setting,
                        .share = share,

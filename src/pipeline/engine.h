@@ -56,6 +56,9 @@ struct EngineOptions {
   /// those are tried all the same.
   std::function<bool(const StageInfo&, ExitCode)> remembers_failure = {};
   bool retry_failed = false;
+  /// Stages whose result is known run all the same, and fail with NotReproducible where they give other
+  /// bytes.
+  bool verify = false;
   Settings settings = {};           ///< what the person set, for reasons; never part of a key
   ReadsSetting reads_setting = {};  ///< which stage takes which of them into its key
   WorkShare* share = nullptr;       ///< with other engines; null: works alone

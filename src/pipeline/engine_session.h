@@ -66,6 +66,10 @@ struct Engine::Session {
   void store(Node& node, const std::vector<std::shared_ptr<Artifact>>& outputs);
   void ensure(const std::string& name);
   void remake(Node& node, const std::string& wanted);
+  void expect_same(const Node& node, const std::vector<std::shared_ptr<Artifact>>& outputs) const;
+  bool take_known(Node& node);
+  void compare(Node& node);
+  void tell_start(const Node& node);
   void process(Node& node);
   void process_safely(Node& node);
   void finish(Node& node);

@@ -647,15 +647,17 @@ TEST(Damage, EntriesThatWereSwappedAreNotBelieved) {
   EXPECT_THAT(cache.take_warnings(), SizeIs(1));
 }
 
+// Gives other bytes each time, under one key.
+struct Drifting final : Stage {
+  StageInfo info() const override { return {.name = "drifting", .writes = {"a"}}; }
+  void add_to_key(Hasher&) const override {}
+  void run(const StageInput&, StageOutput& out, IssueSink&) const override {
+    static int run = 0;
+    out.put("a", Text{std::to_string(++run)});
+  }
+};
+
 TEST(Damage, AResultThatCannotBeMadeAgainFailsTheReader) {
-  struct Drifting final : Stage {
-    StageInfo info() const override { return {.name = "drifting", .writes = {"a"}}; }
-    void add_to_key(Hasher&) const override {}
-    void run(const StageInput&, StageOutput& out, IssueSink&) const override {
-      static int run = 0;
-      out.put("a", Text{std::to_string(++run)});
-    }
-  };
   MemoryStore store;
   Cache cache(store);
   for (int build = 0; build < 2; ++build) {
@@ -682,6 +684,53 @@ TEST(Damage, ACacheThatCannotBeWrittenCostsOneWarning) {
   const auto warnings = cache.take_warnings();
   ASSERT_THAT(warnings, SizeIs(1));
   EXPECT_EQ(warnings[0].code, "cache-not-writable");
+}
+
+TEST(Verify, RunsWhatIsKnownAndFindsItEqual) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond diamond;
+  diamond.build(cache);
+  const auto stored = store.entries;
+  Engine engine(cache, {.session = "diamond", .verify = true});
+  diamond.add_to(engine);
+  engine.run();
+  EXPECT_TRUE(engine.is_ok());
+  EXPECT_THAT(diamond.runs(), ElementsAre(2, 2, 2, 2));
+  EXPECT_EQ(by_label(engine)["second"].status, StageStatus::Ran);
+  EXPECT_EQ(by_label(engine)["second"].reason, "run again to compare");
+  EXPECT_EQ(engine.get<Text>("d").value, "DBACs");
+  EXPECT_EQ(store.entries, stored);
+}
+
+TEST(Verify, RunsOnceWhatIsNotKnown) {
+  MemoryStore store;
+  Cache cache(store);
+  Diamond diamond;
+  Engine engine(cache, {.verify = true});
+  diamond.add_to(engine);
+  engine.run();
+  EXPECT_TRUE(engine.is_ok());
+  EXPECT_THAT(diamond.runs(), ElementsAre(1, 1, 1, 1));
+}
+
+TEST(Verify, NamesTheStageThatGivesOtherBytes) {
+  MemoryStore store;
+  Cache cache(store);
+  for (const bool verify : {false, true}) {
+    Engine engine(cache, {.verify = verify});
+    engine.add(std::make_unique<Drifting>());
+    engine.add(text_stage("reader", {"a"}, {"b"}, "R"));
+    engine.run();
+    EXPECT_EQ(engine.is_ok(), !verify);
+    if (!verify) continue;
+    const auto results = by_label(engine);
+    EXPECT_EQ(results.at("drifting").code, ExitCode::NotReproducible);
+    EXPECT_EQ(results.at("drifting").error,
+              "stage drifting made other bytes than before from equal inputs (artifact \"a\")");
+    EXPECT_EQ(results.at("reader").status, StageStatus::Skipped);
+  }
+  EXPECT_THAT(cache.verify(), IsEmpty());
 }
 
 TEST(Engine, TwoAtOnceShareOneCache) {
