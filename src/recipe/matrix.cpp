@@ -43,7 +43,7 @@ class Matrix {
     if (axes_.empty() && !value.find("include")) fail(value, "/matrix: expected at least one axis");
   }
 
-  std::vector<MatrixCell> cells() const {
+  std::vector<MatrixCell> cells() {
     std::vector<MatrixCell> cells;
     if (!axes_.empty()) combine(0, Value(), cells);
     if (const Value* exclude = value_.find("exclude"))
@@ -63,9 +63,12 @@ class Matrix {
   }
 
  private:
-  void combine(std::size_t axis, Value so_far, std::vector<MatrixCell>& cells) const {
+  void combine(std::size_t axis, Value so_far, std::vector<MatrixCell>& cells) {
     if (axis == axes_.size()) {
       if (cells.size() == kMaxCells) fail(value_, fmt::format("/matrix: more than {} cells", kMaxCells));
+      value_count_ += count_values(so_far);
+      if (value_count_ > kMaxMatrixValues)
+        fail(value_, fmt::format("/matrix: its cells make more than {} values", kMaxMatrixValues));
       cells.push_back({{}, std::move(so_far), {}});
       return;
     }
@@ -120,6 +123,7 @@ class Matrix {
 
   const Value& value_;
   std::vector<const Value::Member*> axes_;
+  std::size_t value_count_ = 0;  ///< of all cells
 };
 
 // "torso=knight" words, by axis.
@@ -165,6 +169,13 @@ std::vector<MatrixCell> matrix_cells(const Value* matrix, const std::vector<std:
   });
   if (cells.empty()) fail(*matrix, "/matrix: no cell is left");
   return cells;
+}
+
+std::size_t count_values(const Value& value) {
+  std::size_t count = 1;
+  for (const Value& item : value.items) count += count_values(item);
+  for (const Value::Member& member : value.members) count += count_values(member.value);
+  return count;
 }
 
 }  // namespace skinforge

@@ -21,4 +21,10 @@ struct MatrixCell {
 /// when nothing is left.
 std::vector<MatrixCell> matrix_cells(const Value* matrix, const std::vector<std::string>& only);
 
+/// The value itself and all below it.
+std::size_t count_values(const Value& value);
+
+/// Of all cells together.
+constexpr std::size_t kMaxMatrixValues = 4'000'000;  // ours: 1 GB; refuses what multiplies itself, not work
+
 }  // namespace skinforge

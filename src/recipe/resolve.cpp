@@ -86,6 +86,7 @@ std::vector<ResolvedRecipe> resolved(Value root, const fs::path& path, const Rec
   remove(root, "vars");
   remove(root, "matrix");
   std::vector<ResolvedRecipe> recipes;
+  std::size_t value_count = 0;
   for (const MatrixCell& cell : cells) {
     Variables of_cell = variables;
     if (!cell.label.empty()) of_cell["matrix"] = cell.values;
@@ -93,6 +94,10 @@ std::vector<ResolvedRecipe> resolved(Value root, const fs::path& path, const Rec
     ResolvedRecipe recipe{path, cell.label, substituted(root, of_cell)};
     for (const std::string& word : choice.set)
       if (word.starts_with('/')) set_property(recipe.root, word);
+    value_count += count_values(recipe.root);
+    if (value_count > kMaxMatrixValues)
+      fail(root,
+           fmt::format("/matrix: its {} cells make more than {} values", cells.size(), kMaxMatrixValues));
     recipes.push_back(std::move(recipe));
   }
   expect_different_names(recipes);

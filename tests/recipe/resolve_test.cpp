@@ -215,5 +215,25 @@ TEST_F(Resolve, ExpandedTextSaysWhereEachValueComesFrom) {
   EXPECT_EQ(again.animation.rate_hz, 24);
 }
 
+// Ten thousand cells with a list of a thousand each, in the recipe or in an axis: gigabytes out of kilobytes.
+TEST_F(Resolve, AMatrixThatMultipliesARecipeBeyondMemoryIsRefused) {
+  const auto list = [](int count) {
+    std::string text = "[0";
+    for (int i = 1; i < count; ++i) text += "," + std::to_string(i);
+    return text + "]";
+  };
+  const std::string ten = list(10), head = R"({"recipe_version": 1, "name": "a", "matrix": {"a": )" + ten +
+                                           R"(, "b": )" + ten + R"(, "c": )" + ten + R"(, "d": )";
+  write("wide.json", head + ten + R"(}, "ops": )" + list(1000) + "}");
+  EXPECT_EQ(failure("wide.json"),
+            path("wide.json") + ":1:1: /matrix: its 10000 cells make more than 4000000 values");
+  std::string axis = "[" + list(1000);
+  for (int i = 1; i < 10; ++i) axis += "," + list(1000);
+  write("axis.json", head + axis + "]}}");
+  EXPECT_THAT(failure("axis.json"), HasSubstr("/matrix: its cells make more than 4000000 values"));
+  write("fits.json", head + ten + R"(}, "ops": )" + list(100) + "}");
+  EXPECT_THAT(failure("fits.json"), HasSubstr("is the name of two cells"));
+}
+
 }  // namespace
 }  // namespace skinforge
