@@ -1,10 +1,14 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/limits.h"
 #include "io/gltf_document.h"
 #include "io/gltf_rules.h"
 
@@ -25,10 +29,16 @@ class GltfRules {
   void warning(const char* code, const std::string& pointer, const std::string& message) {
     findings.push_back({GltfFinding::Level::Warning, code, pointer, message});
   }
-  /// The numbers of an accessor, once each.
+  /// The numbers of an accessor, read once. Throws Error (BadInput) where few bytes ask for too many.
   const GltfValues& values(std::size_t accessor) {
+    const std::size_t numbers = document.accessors[accessor].count * document.accessors[accessor].components;
+    asked_ += numbers;
+    if (asked_ > kMostAsked) fail(accessor, fmt::format("{} numbers are asked for up to here", asked_));
     const auto found = values_.find(accessor);
     if (found != values_.end()) return found->second;
+    read_ += numbers;
+    if (read_ > limits().keys)
+      fail(accessor, fmt::format("{} numbers up to here, {}", read_, limit_hint("keys")));
     return values_.emplace(accessor, GltfAccessors::values(document.accessors[accessor])).first->second;
   }
   static std::string accessor_pointer(std::size_t accessor) {
@@ -39,7 +49,14 @@ class GltfRules {
   std::vector<GltfFinding> findings;
 
  private:
+  static constexpr std::uint64_t kMostAsked = std::uint64_t{1} << 31;  // ours: ten of the largest files
+
+  [[noreturn]] void fail(std::size_t accessor, const std::string& message) const {
+    document.root.get("accessors").at(accessor).fail(message);
+  }
+
   std::map<std::size_t, GltfValues> values_;
+  std::uint64_t asked_ = 0, read_ = 0;  ///< numbers, each time and once
 };
 
 void check_nodes_and_skins(GltfRules& rules);

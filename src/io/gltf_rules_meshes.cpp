@@ -21,8 +21,8 @@ class PrimitiveRules {
 
   void check() {
     if (const auto position = accessor_of("POSITION")) check_positions(*position);
-    for (const char* name : {"NORMAL", "TANGENT"})
-      if (const auto accessor = accessor_of(name)) check_unit(*accessor);
+    if (has_format("NORMAL", "VEC3")) check_unit(*accessor_of("NORMAL"));
+    if (has_format("TANGENT", "VEC4")) check_unit(*accessor_of("TANGENT"));
     check_indices();
     for (std::size_t set = 0; attributes_.has("JOINTS_" + std::to_string(set)); ++set) ++sets_;
     std::size_t weight_sets = 0;
@@ -39,6 +39,17 @@ class PrimitiveRules {
     const auto reference = attributes_.find(name);
     if (!reference) return std::nullopt;
     return reference->index(rules_.document.accessors.size(), "accessor");
+  }
+
+  // Whether the attribute is there and of that type; told where it is of another.
+  bool has_format(const std::string& name, const char* type) {
+    const auto accessor = accessor_of(name);
+    if (!accessor) return false;
+    const std::string& found = rules_.document.accessors[*accessor].type;
+    if (found == type) return true;
+    rules_.error("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT", attributes_.get(name).place(),
+                 fmt::format("{} instead of {}", found, type));
+    return false;
   }
 
   void check_positions(std::size_t accessor) {
@@ -80,8 +91,10 @@ class PrimitiveRules {
 
   void check_weights() {
     for (std::size_t set = 0; set < sets_; ++set) {
-      joints_.push_back(&rules_.values(*accessor_of("JOINTS_" + std::to_string(set))));
-      weights_.push_back(&rules_.values(*accessor_of("WEIGHTS_" + std::to_string(set))));
+      const std::string joints = "JOINTS_" + std::to_string(set), weights = "WEIGHTS_" + std::to_string(set);
+      if (!has_format(joints, "VEC4") || !has_format(weights, "VEC4")) return;
+      joints_.push_back(&rules_.values(*accessor_of(joints)));
+      weights_.push_back(&rules_.values(*accessor_of(weights)));
       if (joints_.back()->count < count_ || weights_.back()->count < count_)
         return;  // told as unequal counts
     }

@@ -36,6 +36,27 @@ class Tree {
       path.push_back(at);
     return path;
   }
+  // The nodes at or above all of `joints`, the nearest first; none where they have no common root.
+  std::vector<std::size_t> above_all(const std::vector<std::size_t>& joints) const {
+    constexpr std::size_t kOpen = kNone - 1;
+    const std::vector<std::size_t> path = up_from(joints.front());
+    std::vector<std::size_t> meets(parents_.size(), kOpen);  // where the way up from a node meets the path
+    for (std::size_t i = path.size(); i-- > 0;) meets[path[i]] = i;
+    std::size_t highest = 0;
+    for (const std::size_t joint : joints) {
+      std::vector<std::size_t> climbed;
+      std::size_t at = joint;
+      for (; at != kNone && meets[at] == kOpen; at = parents_[at]) {
+        meets[at] = kNone;
+        climbed.push_back(at);
+      }
+      const std::size_t meeting = at == kNone ? kNone : meets[at];
+      for (const std::size_t node : climbed) meets[node] = meeting;
+      if (meeting == kNone) return {};
+      highest = std::max(highest, meeting);
+    }
+    return {path.begin() + static_cast<std::ptrdiff_t>(highest), path.end()};
+  }
 
  private:
   std::vector<JsonPlace> nodes_;
@@ -92,13 +113,10 @@ void check_node(const Tree& tree, std::size_t i, const std::vector<JsonPlace>& m
 
 void check_skin(const Tree& tree, const JsonPlace& skin, GltfRules& rules) {
   const JsonPlace joints = skin.get("joints");
-  std::vector<std::size_t> common;  // ancestors of all joints so far, the nearest first
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto path = tree.up_from(joints.at(j).index(tree.nodes().size(), "node"));
-    if (j == 0) common = path;
-    std::erase_if(common,
-                  [&](std::size_t node) { return std::find(path.begin(), path.end(), node) == path.end(); });
-  }
+  std::vector<std::size_t> nodes;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    nodes.push_back(joints.at(j).index(tree.nodes().size(), "node"));
+  const std::vector<std::size_t> common = nodes.empty() ? nodes : tree.above_all(nodes);
   if (common.empty())
     rules.error("SKIN_NO_COMMON_ROOT", joints.place(), "the joints have no common root");
   else if (const auto root = skin.find("skeleton");
