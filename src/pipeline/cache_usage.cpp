@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "pipeline/cache_layout.h"
+#include "pipeline/json_number.h"
 
 namespace skinforge {
 using nlohmann::json;
@@ -16,9 +17,11 @@ CacheUsage read_usage(const BlobStore& store, const std::string& path) {
   CacheUsage usage;
   if (!document.is_object()) return usage;
   try {
-    usage = {document.at("builds"), document.at("hits"), document.at("runs"), document.at("saved_seconds"),
-             document.at("spent_seconds")};
+    usage = {whole_number(document.at("builds")), whole_number(document.at("hits")),
+             whole_number(document.at("runs")), document.at("saved_seconds"), document.at("spent_seconds")};
   } catch (const json::exception&) {
+    return {};
+  } catch (const Error&) {
     return {};
   }
   return usage;

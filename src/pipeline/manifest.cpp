@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/cache.h"
+#include "pipeline/json_number.h"
 
 namespace skinforge {
 using nlohmann::json;
@@ -44,7 +45,7 @@ std::vector<Manifest::Output> outputs(const json& list) {
   for (const json& item : list) {
     const auto digest = digest_from_hex(item.at("sha256").get<std::string>());
     if (!digest) throw Error(ExitCode::Internal, "not a digest");
-    items.push_back({item.at("name"), *digest, item.at("size")});
+    items.push_back({item.at("name"), *digest, whole_number(item.at("size"))});
   }
   return items;
 }
@@ -88,13 +89,13 @@ Manifest manifest(const json& j, const Digest& key) {
   m.build = j.at("build");
   m.stage = j.at("stage");
   m.instance = j.at("instance");
-  m.version = j.at("version");
+  m.version = static_cast<int>(whole_number(j.at("version")));
   m.parameters = hashed_fields(j.at("parameters"));
   m.inputs = hashed_fields(j.at("inputs"));
   m.outputs = outputs(j.at("outputs"));
   m.issues = issues(j.at("issues"));
   const json& cost = j.at("cost");
-  m.cost = {cost.at("wall_seconds"), cost.at("cpu_seconds"), cost.at("peak_bytes")};
+  m.cost = {cost.at("wall_seconds"), cost.at("cpu_seconds"), whole_number(cost.at("peak_bytes"))};
   return m;
 }
 }  // namespace

@@ -5,6 +5,8 @@
 #include <set>
 #include <span>
 
+#include "pipeline/json_number.h"
+
 namespace skinforge {
 using nlohmann::json;
 
@@ -60,10 +62,12 @@ std::optional<RunRecord> parse_run_record(std::string_view text) {
     for (const auto& [label, stage] : document.at("stages").items()) {
       const auto key = digest_from_hex(stage.at(0).get<std::string>());
       if (!key) return std::nullopt;
-      record.stages[label] = {*key, stage.at(1).get<std::size_t>()};
+      record.stages[label] = {*key, whole_number(stage.at(1))};
     }
     return record;
   } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const Error&) {
     return std::nullopt;
   }
 }
