@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "io/fbx_curve.h"
 
@@ -19,8 +20,8 @@ constexpr double kSamePose = 1e-3;    // relative: our transform of a node again
 constexpr double kSlopeStep = 1e-4;   // of a piece; slopes by differences of second order
 constexpr double kSameMotion = 1e-3;  // relative, radians: what a pose may miss of its file
 constexpr double kJump = 1e-6;  // relative, radians: a curve that ends a piece elsewhere than the next begins
-constexpr double kBeforeJump = 1e-3;  // seconds; apart even as floats
-constexpr std::size_t kMaxKeys = 1'000'000;
+constexpr double kBeforeJump = 1e-3;        // seconds; apart even as floats
+constexpr std::size_t kNumbersPerKey = 33;  // three tracks with times, values and their slopes
 
 /// Three curves of one property; a missing one holds its default.
 struct Channel {
@@ -102,8 +103,9 @@ bool is_lost(const Motion& motion, const FbxTransform& transform, double frame) 
   return false;
 }
 
-/// The keys of all curves, and between them as many as there are frames.
-std::vector<double> sample_times(const Motion& motion, double frame) {
+/// The keys of all curves, and between them as many as there are frames; none where that are more than
+/// `most`.
+std::vector<double> sample_times(const Motion& motion, double frame, std::size_t most) {
   std::set<double> keys;
   for (const Channel& channel : motion) {
     const std::vector<double> times = key_times(channel);
@@ -114,11 +116,12 @@ std::vector<double> sample_times(const Motion& motion, double frame) {
     if (!times.empty()) {
       const double last = times.back(), gap = key - last;
       const double pieces = std::ceil(gap / frame - 1e-6);
-      if (pieces + static_cast<double>(times.size()) > kMaxKeys) return {};
+      if (pieces + static_cast<double>(times.size()) > static_cast<double>(most)) return {};
       for (double i = 1; i < pieces; ++i) times.push_back(last + gap * i / pieces);
     }
     times.push_back(key);
   }
+  if (times.size() > most) return {};
   return times;
 }
 
@@ -288,7 +291,7 @@ class Restorer {
     if (!is_lost(motion, transform, frame_)) return;
     const std::string name = fbx_.name(model);
     RawScene::NodeTracks* tracks = tracks_of(animation, node_of(name, transform));
-    const std::vector<double> times = sample_times(motion, frame_);
+    const std::vector<double> times = sample_times(motion, frame_, limits().keys / kNumbersPerKey - sampled_);
     if (tracks && !times.empty()) return replace(*tracks, motion, transform, times);
     scene_.issues.push_back(
         {"curves-as-keys", Severity::Warning, "clip " + printable(animation.name),
@@ -303,6 +306,7 @@ class Restorer {
     if (whole || motion[1].is_driven()) tracks.rotation = std::move(sampled.rotation);
     if (whole || motion[2].is_driven()) tracks.scale = std::move(sampled.scale);
     ++restored_;
+    sampled_ += times.size();
   }
 
   /// The one node of that name, if there is one and we read its transform as Assimp does.
@@ -344,6 +348,7 @@ class Restorer {
   std::map<std::string, std::vector<std::size_t>> nodes_;
   std::map<std::string, std::vector<std::int64_t>> models_;
   std::size_t restored_ = 0;
+  std::size_t sampled_ = 0;  ///< keys of all of them
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "base/limits.h"
+
 namespace skinforge {
 namespace {
 
@@ -99,6 +101,18 @@ TEST(FbxAnimation, ANodeThatIsNotFoundStaysAsKeys) {
   EXPECT_EQ(scene.animations[0].nodes[0].translation.times.size(), 2u);
   ASSERT_EQ(scene.issues.size(), 1u);
   EXPECT_EQ(scene.issues[0].code, "curves-as-keys");
+}
+
+// 31 keys of 33 numbers each.
+TEST(FbxAnimation, MoreKeysThanTheLimitStayAsTheyAre) {
+  Limits limits;
+  limits.keys = 31 * 33;
+  set_limits(limits);
+  EXPECT_EQ(restored("").animations[0].nodes[0].translation.times.size(), 31u);
+  limits.keys = 30 * 33;
+  set_limits(limits);
+  EXPECT_EQ(left_alone(""), "curves-as-keys");
+  set_limits({});
 }
 
 }  // namespace
