@@ -36,6 +36,12 @@ std::string stamp_fault(const Bytes& glb) {
   return "";
 }
 
+// The text of a member; empty where there is none: anybody may have written the file.
+std::string text_in(const json& object, const char* key) {
+  const auto member = object.is_object() ? object.find(key) : object.end();
+  return member != object.end() && member->is_string() ? member->get<std::string>() : std::string();
+}
+
 // Files that the model was made of against those that the recipe names now.
 void compare_inputs(const json& provenance, const Recipe& recipe, std::vector<std::string>& faults) {
   std::vector<std::pair<std::string, std::string>> now;  // name, digest
@@ -45,12 +51,12 @@ void compare_inputs(const json& provenance, const Recipe& recipe, std::vector<st
   const json inputs = provenance.value("inputs", json::object());
   for (const auto& [input, files] : inputs.items())
     for (const json& file : files) {
-      const std::string name = file.value("file", ""), digest = file.value("sha256", "");
+      const std::string name = text_in(file, "file"), digest = text_in(file, "sha256");
       const bool is_same = std::find(now.begin(), now.end(), std::pair(name, digest)) != now.end();
       const auto named = std::find_if(now.begin(), now.end(), [&](const auto& f) { return f.first == name; });
       if (is_same) continue;
       faults.push_back(fmt::format("input \"{}\": {} was {}, {}", printable(input), printable(name),
-                                   digest.substr(0, 12),
+                                   printable(digest.substr(0, 12)),
                                    named == now.end() ? "and the recipe names no such file now"
                                                       : "now it is " + named->second.substr(0, 12)));
     }
@@ -58,10 +64,10 @@ void compare_inputs(const json& provenance, const Recipe& recipe, std::vector<st
 
 void compare_recipe(const json& provenance, const CommandLine& line, std::vector<std::string>& faults) {
   const Recipe recipe = read_resolved(only_recipe(line));
-  const std::string was = provenance.value("recipe_sha256", ""), is = recipe_digest(recipe).hex();
+  const std::string was = text_in(provenance, "recipe_sha256"), is = recipe_digest(recipe).hex();
   if (was != is)
     faults.push_back(fmt::format("{} asks for something else now: {} then, {} now", line.recipes.front(),
-                                 was.substr(0, 12), is.substr(0, 12)));
+                                 printable(was.substr(0, 12)), is.substr(0, 12)));
   compare_inputs(provenance, recipe, faults);
 }
 }  // namespace

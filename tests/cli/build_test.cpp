@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 
 #include "base/hash.h"
 #include "testing/assets.h"
+#include "testing/glb_file.h"
 #include "testing/program.h"
 #include "testing/temporary_folder.h"
 
@@ -211,6 +213,34 @@ TEST_F(Build, Goal04GoesOnAfterBeingKilled) {
   ASSERT_EQ(last.status, 0) << last.err;
   EXPECT_EQ(contents(folder / "out"), contents(folder / "whole"));
   EXPECT_EQ(call({"cache", "verify", "--cache", "cache"}).status, 0);
+}
+
+// Every stage gives the same bytes a second time.
+TEST_F(Build, VerifyRunsWhatIsKnownAndComparesIt) {
+  ASSERT_EQ(call(build(horse, "out")).status, 0);
+  const auto made = contents(folder / "out");
+  auto words = build(horse, "out");
+  words.push_back("--verify");
+  const ProgramResult result = call(words);
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (const auto& [stage, status] : statuses(result)) EXPECT_EQ(status, "ran") << stage;
+  EXPECT_EQ(contents(folder / "out"), made);
+}
+
+// Anybody can write what a file was made of.
+TEST_F(Build, AModelWithOddProvenanceIsRefusedInOneLine) {
+  for (const char* odd :
+       {R"({"inputs": [1]})", R"({"inputs": {"a": 5}})", R"({"inputs": {"a": [{"file": 5, "sha256": []}]}})",
+        R"({"recipe_sha256": 5, "inputs": "x"})", R"({"recipe_sha256": "\u001b[1m"})", "5"}) {
+    const Bytes glb = testing::glb_bytes(
+        fmt::format(R"({{"asset": {{"version": "2.0", "extras": {{"skinforge": {}}}}}}})", odd));
+    std::ofstream(folder / "odd.glb", std::ios::binary)
+        .write(reinterpret_cast<const char*>(glb.data()), static_cast<std::streamsize>(glb.size()));
+    const ProgramResult result = call({"verify", "odd.glb", "--recipe", horse});
+    EXPECT_EQ(result.status, 4) << odd << result.err;
+    EXPECT_THAT(result.err, Not(HasSubstr("internal error")));
+    EXPECT_THAT(result.err, Not(HasSubstr("\x1b[1m")));
+  }
 }
 
 // One byte of every file of a warm cache is flipped: the build warns, repairs and gives the same bytes.
