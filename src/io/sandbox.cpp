@@ -221,6 +221,10 @@ Error no_answer(const SandboxLimits& limits) {
       fmt::format("importer did not answer for {} s; --limit import-wait=N gives more", limits.wall_seconds)};
 }
 
+std::string size_text(std::size_t bytes) {
+  return bytes >> 20 > 0 ? fmt::format("{} MB", bytes >> 20) : fmt::format("{} KB", bytes >> 10);
+}
+
 /// How the child ended, unless well.
 void check_end(int status, const SandboxLimits& limits) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
@@ -231,8 +235,8 @@ void check_end(int status, const SandboxLimits& limits) {
     how = fmt::format("importer needs more than {} MB of memory; --limit import-memory=N gives more",
                       limits.address_space >> 20);
   if (number == 0 && WEXITSTATUS(status) == kOutOfStack)
-    how = fmt::format("importer needs more than {} MB of stack; --limit import-stack=N gives more",
-                      limits.stack >> 20);
+    how = fmt::format("importer needs more than {} of stack; --limit import-stack=N gives more",
+                      size_text(limits.stack));
   if (number == SIGXCPU || number == SIGKILL)
     how =
         fmt::format("importer took more than {} s; --limit import-seconds=N gives more", limits.cpu_seconds);

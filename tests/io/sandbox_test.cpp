@@ -118,7 +118,7 @@ TEST(Sandbox, StackLimitIsOneLine) {
   EXPECT_GE(read_in_child({file}, limits).nodes.size(), 1000u);
   limits.stack = std::size_t{128} << 10;
   EXPECT_EQ(refusal({file}, limits),
-            "deep.dae: importer needs more than 0 MB of stack; --limit import-stack=N gives more");
+            "deep.dae: importer needs more than 128 KB of stack; --limit import-stack=N gives more");
 }
 
 TEST(Sandbox, AWorkerThatSleepsIsNotWaitedFor) {
