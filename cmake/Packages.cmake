@@ -12,4 +12,5 @@ find_package(nlohmann_json CONFIG REQUIRED)
 find_package(yaml-cpp CONFIG REQUIRED)
 find_package(spdlog CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
+set(OPENSSL_USE_STATIC_LIBS TRUE)  # a hash function, not 2 ms of loading the rest
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)

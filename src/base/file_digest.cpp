@@ -7,7 +7,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/expect.h"
 #include "base/sha256_algorithm.h"
 
 namespace skinforge {
@@ -36,8 +35,7 @@ std::string digest_of_text(std::string_view text) {
 }  // namespace
 
 std::optional<Digest> sha256_of_file(const std::filesystem::path& path) {
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);
-  SF_EXPECT(context && EVP_DigestInit_ex(context.get(), sha256_algorithm(), nullptr) == 1);
+  Sha256 algorithm;
   std::ifstream file;
   std::array<char, 1 << 16> piece;
   file.rdbuf()->pubsetbuf(nullptr, 0);  // `piece` is the buffer
@@ -45,12 +43,10 @@ std::optional<Digest> sha256_of_file(const std::filesystem::path& path) {
   if (!file) return std::nullopt;
   do {
     file.read(piece.data(), piece.size());
-    EVP_DigestUpdate(context.get(), piece.data(), static_cast<std::size_t>(file.gcount()));
+    algorithm.add(piece.data(), static_cast<std::size_t>(file.gcount()));
   } while (file);
   if (!file.eof()) return std::nullopt;
-  Digest digest;
-  SF_EXPECT(EVP_DigestFinal_ex(context.get(), digest.bytes.data(), nullptr) == 1);
-  return digest;
+  return algorithm.finish();
 }
 
 std::optional<FileStamp> stamp_of(const std::filesystem::path& path) {

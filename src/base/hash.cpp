@@ -1,6 +1,5 @@
 #include "base/hash.h"
 
-#include "base/expect.h"
 #include "base/sha256_algorithm.h"
 #include "base/text.h"
 
@@ -35,33 +34,24 @@ std::optional<Digest> digest_from_hex(std::string_view hex) {
   return digest;
 }
 
-const EVP_MD* sha256_algorithm() {
-  static const std::unique_ptr<EVP_MD, decltype(&EVP_MD_free)> algorithm(
-      EVP_MD_fetch(nullptr, "SHA256", nullptr), &EVP_MD_free);
-  return algorithm ? algorithm.get() : EVP_sha256();
-}
-
 Digest sha256(std::span<const std::byte> bytes) {
-  Digest digest;
-  SF_EXPECT(
-      EVP_Digest(bytes.data(), bytes.size(), digest.bytes.data(), nullptr, sha256_algorithm(), nullptr) == 1);
-  return digest;
+  Sha256 algorithm;
+  algorithm.add(bytes.data(), bytes.size());
+  return algorithm.finish();
 }
 
 struct Hasher::State {
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
+  Sha256 algorithm;
   std::vector<HashedField>* log = nullptr;
 
   void update(std::span<const std::byte> bytes) {
     const auto size = static_cast<std::uint64_t>(bytes.size());
-    EVP_DigestUpdate(context.get(), &size, sizeof size);
-    EVP_DigestUpdate(context.get(), bytes.data(), bytes.size());
+    algorithm.add(&size, sizeof size);
+    algorithm.add(bytes.data(), bytes.size());
   }
 };
 
-Hasher::Hasher() : state_(std::make_unique<State>()) {
-  SF_EXPECT(EVP_DigestInit_ex(state_->context.get(), sha256_algorithm(), nullptr) == 1);
-}
+Hasher::Hasher() : state_(std::make_unique<State>()) {}
 Hasher::~Hasher() = default;
 Hasher::Hasher(Hasher&&) noexcept = default;
 Hasher& Hasher::operator=(Hasher&&) noexcept = default;
@@ -95,9 +85,7 @@ void Hasher::log_to(std::vector<HashedField>& log) {
 }
 
 Digest Hasher::finish() {
-  Digest digest;
-  SF_EXPECT(EVP_DigestFinal_ex(state_->context.get(), digest.bytes.data(), nullptr) == 1);
-  return digest;
+  return state_->algorithm.finish();
 }
 
 }  // namespace skinforge

@@ -4,10 +4,12 @@
 #include <link.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -18,8 +20,8 @@ namespace skinforge {
 namespace fs = std::filesystem;
 
 namespace {
-// Loaded when a stage needs it, after the keys are made.
-constexpr const char* kLateLibrary = SKINFORGE_LATE_LIBRARY;
+// Loaded when a stage needs them, after the keys are made; with spaces between.
+constexpr const char* kLateLibraries = SKINFORGE_LATE_LIBRARIES;
 
 std::string hex(const unsigned char* bytes, std::size_t size) {
   static constexpr char kDigits[] = "0123456789abcdef";
@@ -92,11 +94,17 @@ std::string note_of_file(const fs::path& path) {
   return {};
 }
 
-// The library that is loaded late lies where the others do.
-void add_late_library(Loaded& loaded) {
-  for (const fs::path& folder : loaded.folders)
-    if (const std::string id = note_of_file(folder / kLateLibrary); !id.empty())
-      loaded.objects.push_back(std::string(kLateLibrary) + " " + id);
+// Libraries that are loaded late lie where the others do, or where the person sends the loader.
+void add_late_libraries(Loaded& loaded) {
+  const char* path = std::getenv("LD_LIBRARY_PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (!folder.empty()) loaded.folders.insert(folder);
+  std::istringstream names(kLateLibraries);
+  for (std::string name; names >> name;)
+    for (const fs::path& folder : loaded.folders)
+      if (const std::string id = note_of_file(folder / name); !id.empty())
+        loaded.objects.push_back(name + " " + id);
 }
 
 // The C library picks its sines and powers by what the processor can do, and they differ in the last bit.
@@ -112,8 +120,9 @@ std::string build_id() {
   static const std::string id = [] {
     Loaded loaded;
     ::dl_iterate_phdr(visit, &loaded);
-    add_late_library(loaded);
+    add_late_libraries(loaded);
     std::sort(loaded.objects.begin(), loaded.objects.end());
+    loaded.objects.erase(std::unique(loaded.objects.begin(), loaded.objects.end()), loaded.objects.end());
     Hasher hasher;
     for (const std::string& object : loaded.objects) hasher.add("object", object);
     hasher.add("arithmetic", std::string(arithmetic()));

@@ -13,6 +13,18 @@
 namespace skinforge {
 namespace {
 
+/// The first node of that name, parents first; null where there is none.
+const aiNode* find_node(const aiNode* root, const aiString& name) {
+  std::vector<const aiNode*> open = {root};
+  while (!open.empty()) {
+    const aiNode* node = open.back();
+    open.pop_back();
+    if (node->mName == name) return node;
+    for (unsigned c = node->mNumChildren; c-- > 0;) open.push_back(node->mChildren[c]);
+  }
+  return nullptr;
+}
+
 /// One bind of one joint: the node and the bits of its matrix. A node whose geometries were bound
 /// differently stands in the skin once for each bind.
 using BindKey = std::pair<std::int32_t, std::array<float, 12>>;
@@ -129,7 +141,7 @@ class MeshReader {
 
   /// Where a bone stands in the skin of the current node; -1 when its node is unknown.
   std::int32_t slot_of(const aiBone& bone) {
-    const aiNode* node = bone.mNode ? bone.mNode : source_.mRootNode->FindNode(bone.mName);
+    const aiNode* node = bone.mNode ? bone.mNode : find_node(source_.mRootNode, bone.mName);
     const auto found = index_.find(node);
     if (found == index_.end()) return -1;
     const auto [slot, is_new] = slots_.try_emplace(bind_key(found->second, bone.mOffsetMatrix),

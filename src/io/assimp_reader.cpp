@@ -1,5 +1,6 @@
 #include "io/assimp_reader.h"
 
+#include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -7,7 +8,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <assimp/Importer.hpp>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -31,29 +32,30 @@ namespace {
 constexpr double kShear = 1e-4;  // a float matrix that went through a chain of products is this far from TRS
 constexpr std::string_view kPivotMark = "_$AssimpFbx$_";  // Assimp's names for the steps of an FBX transform
 
-/// An importer set as `design/dependencies.md` measured; owns the scene it reads.
+/// A scene as it is read with the settings that `design/dependencies.md` measured; owns it.
 class Reading {
  public:
   Reading(const std::vector<InputFile>& files, bool keep_pivots) : system_(files) {
-    importer_.SetIOHandler(new MemoryIoSystem(files));  // the importer owns it
-    importer_.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, keep_pivots);
-    importer_.SetPropertyBool(AI_CONFIG_IMPORT_REMOVE_EMPTY_BONES, false);
-    importer_.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, !keep_pivots);
-    scene_ = importer_.ReadFile(files.front().path, aiProcess_PopulateArmatureData);
+    const std::unique_ptr<aiPropertyStore, decltype(&aiReleasePropertyStore)> settings(
+        aiCreatePropertyStore(), &aiReleasePropertyStore);
+    aiSetImportPropertyInteger(settings.get(), AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, keep_pivots);
+    aiSetImportPropertyInteger(settings.get(), AI_CONFIG_IMPORT_REMOVE_EMPTY_BONES, 0);
+    aiSetImportPropertyInteger(settings.get(), AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, !keep_pivots);
+    scene_.reset(aiImportFileExWithProperties(files.front().path.c_str(), aiProcess_PopulateArmatureData,
+                                              &system_.callbacks(), settings.get()));
     if (!scene_ || !scene_->mRootNode) throw Error(ExitCode::BadInput, reason());
   }
   const aiScene& scene() const { return *scene_; }
   const MemoryIoSystem& files() const { return system_; }
 
  private:
-  std::string reason() const {
-    const std::string text = importer_.GetErrorString();
+  static std::string reason() {
+    const std::string text = aiGetErrorString();
     return text.empty() ? "no importer knows this file" : text;
   }
 
   MemoryIoSystem system_;
-  Assimp::Importer importer_;
-  const aiScene* scene_ = nullptr;
+  std::unique_ptr<const aiScene, decltype(&aiReleaseImport)> scene_{nullptr, &aiReleaseImport};
 };
 
 /// All nodes, parents first, children in their order, without recursion.

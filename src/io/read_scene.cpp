@@ -1,6 +1,5 @@
+#include <assimp/cimport.h>
 #include <fmt/format.h>
-
-#include <assimp/Importer.hpp>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -16,7 +15,7 @@ namespace {
 bool is_known_to_assimp(const std::string& ending) {
   for (const char* common : {".fbx", ".dae", ".obj"})
     if (ending == common) return true;
-  return !ending.empty() && Assimp::Importer().IsExtensionSupported(ending);
+  return !ending.empty() && aiIsExtensionSupported(ending.c_str()) == AI_TRUE;
 }
 }  // namespace
 

@@ -20,6 +20,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/assimp_library.h"
 #include "io/assimp_reader.h"
 #include "io/import_cell.h"
 #include "io/raw_scene_check.h"
@@ -295,6 +296,7 @@ int import_worker_main(int, char**) {
     set_limits(task.of_scene);
     if (task.files.empty()) return 1;
     std::set_new_handler(end_without_memory);
+    load_assimp();  // in the cell no file can be opened any more
     enter_cell(task.limits);
     Job job{&task, {}, {}};
     run_on_stack(task.limits.stack, run_job, &job);
