@@ -94,7 +94,10 @@ ExitCode diff_command(const CommandLine& line, Console& console) {
   const DiffRequest& request = line.diff;
   const DiffThresholds thresholds = thresholds_of(request.thresholds);
   const Side a = read_side(request.a, console), b = read_side(request.b, console);
-  const CharacterDiff diff = compare_characters(a.character, b.character, a.bytes.size(), b.bytes.size());
+  const CharacterDiff diff = compare_characters(a.character, b.character,
+                                                {.bytes_a = a.bytes.size(),
+                                                 .bytes_b = b.bytes.size(),
+                                                 .wants_vertices = !request.html.empty()});
   const std::vector<DiffFinding> findings = judge(diff, thresholds);
   const std::string text = to_text(diff, findings);
   if (!request.junit.empty()) {

@@ -45,18 +45,17 @@ const ClipDiff* CharacterDiff::worst_clip() const {
   return worst == clips.end() ? nullptr : &*worst;
 }
 
-CharacterDiff compare_characters(const Character& a, const Character& b, std::uint64_t bytes_a,
-                                 std::uint64_t bytes_b) {
+CharacterDiff compare_characters(const Character& a, const Character& b, const DiffOptions& options) {
   CharacterDiff diff;
   diff.same = correspond(a, b);
   const Correspondence& same = diff.same;
   diff.diagonal = a.mesh.diagonal();
   diff.structure = compare_structure(a, b, same);
-  diff.structure.a = count(a, bytes_a);
-  diff.structure.b = count(b, bytes_b);
+  diff.structure.a = count(a, options.bytes_a);
+  diff.structure.b = count(b, options.bytes_b);
   diff.geometry = compare_surfaces(a, b, same, diff.diagonal);
   diff.skin = compare_weights(a, b, same);
-  diff.clips = compare_clips(a, b, same, diff.diagonal);
+  diff.clips = compare_clips(a, b, same, diff.diagonal, options.wants_vertices);
   return diff;
 }
 

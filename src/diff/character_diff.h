@@ -46,14 +46,15 @@ struct ClipDiff {
   std::string clip;
   double duration_a = 0, duration_b = 0;  ///< seconds
   std::size_t keys_a = 0, keys_b = 0;
-  bool is_compared = true;        ///< false: A has vertices, and none of them has a counterpart in B
-  double max = 0;                 ///< largest distance of a skinned vertex
-  double rms = 0;                 ///< over all vertices and times
-  double time = 0;                ///< seconds, of the largest
-  std::string joint;              ///< heaviest of A at that vertex
-  double joint_max = 0;           ///< largest distance of a joint
-  double joint_angle_deg = 0;     ///< largest turn between corresponding joints, model space
-  std::vector<float> vertex_max;  ///< per vertex of A, its largest distance; 0 without counterpart
+  bool is_compared = true;     ///< false: A has vertices, and none of them has a counterpart in B
+  double max = 0;              ///< largest distance of a skinned vertex
+  double rms = 0;              ///< over all vertices and times
+  double time = 0;             ///< seconds, of the largest
+  std::string joint;           ///< heaviest of A at that vertex
+  double joint_max = 0;        ///< largest distance of a joint
+  double joint_angle_deg = 0;  ///< largest turn between corresponding joints, model space
+  /// Per vertex of A, its largest distance; 0 without counterpart. Empty where nobody asked for it.
+  std::vector<float> vertex_max;
 };
 
 struct CharacterDiff {
@@ -68,10 +69,14 @@ struct CharacterDiff {
   const ClipDiff* worst_clip() const;
 };
 
+struct DiffOptions {
+  std::uint64_t bytes_a = 0, bytes_b = 0;  ///< sizes of the files, for the counts
+  bool wants_vertices = false;             ///< fill in ClipDiff::vertex_max, for which every vertex is posed
+};
+
 /// Compares two sound characters. Both may be anything; without a mesh the distances are 0. Parallel over
-/// clips and vertices, same result for any number of threads. `bytes`: sizes of the files, for the counts.
-CharacterDiff compare_characters(const Character& a, const Character& b, std::uint64_t bytes_a = 0,
-                                 std::uint64_t bytes_b = 0);
+/// clips and vertices, same result for any number of threads.
+CharacterDiff compare_characters(const Character& a, const Character& b, const DiffOptions& options = {});
 
 /// What is still the same: shares of the diagonal, weights in [0, 2], seconds. Above it is a difference.
 struct DiffThresholds {
