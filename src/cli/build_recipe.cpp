@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "base/text.h"
+#include "cli/accept.h"
 #include "cli/commands.h"
 #include "cli/event_stream.h"
 #include "cli/report_page.h"
@@ -27,36 +28,22 @@ fs::path output_folder(const CommandLine& line, const Recipe& recipe, bool is_al
   return is_alone ? fs::path(line.out) : fs::path(line.out) / recipe.name;
 }
 
-// Files that a build reads and must not overwrite.
-std::vector<fs::path> files_read(const Recipe& recipe) {
-  std::vector<fs::path> files = input_files(recipe), recipes = recipe_files(recipe);
-  files.insert(files.end(), recipes.begin(), recipes.end());
-  return files;
-}
-
 bool has_run(const std::vector<StageResult>& stages) {
   return std::any_of(stages.begin(), stages.end(),
                      [](const auto& s) { return s.status == StageStatus::Ran; });
 }
 
-bool has_failed_only_budgets(Session& session) {
+// Over budget or unlike the golden, but there to be looked at.
+bool has_failed_only_verdicts(Session& session) {
   const auto results = session.engine().results();
   return std::all_of(results.begin(), results.end(), [](const StageResult& stage) {
-    return stage.status == StageStatus::Hit || stage.status == StageStatus::Ran ||
-           stage.info.name == kExpectStage;
+    return stage.status == StageStatus::Hit || stage.status == StageStatus::Ran || is_verdict(stage.info);
   });
 }
 
-// What differs from run to run, in files of its own, so that the others compare byte for byte.
-void write_run_files(const CommandLine& line, Session& session, const Outcome& outcome) {
-  const bool is_changed =
-      has_run(outcome.stages) || std::any_of(outcome.files.begin(), outcome.files.end(),
-                                             [](const PublishedFile& file) { return file.was_written; });
-  const fs::path timings = outcome.folder / "timings.json", page = outcome.folder / "report.html";
-  if (line.report != ReportLevel::None && (is_changed || !fs::exists(timings)))
-    write_output(timings, skinforge::to_json(session.timings()));
-  if (line.report == ReportLevel::Full && (is_changed || !fs::exists(page)))
-    write_output(page, report_page(session));
+bool has_changed(const Outcome& outcome) {
+  return has_run(outcome.stages) || std::any_of(outcome.files.begin(), outcome.files.end(),
+                                                [](const PublishedFile& file) { return file.was_written; });
 }
 
 void build_session(const CommandLine& line, Session& session, Outcome& outcome) {
@@ -65,19 +52,19 @@ void build_session(const CommandLine& line, Session& session, Outcome& outcome) 
     session.add_grafts();
     is_ok = session.run();
   }
-  if (is_ok || has_failed_only_budgets(session)) {  // over budget, but there to be looked at
+  const bool is_whole = is_ok || has_failed_only_verdicts(session);
+  if (is_whole) {
     const auto files = line.preview ? preview_outputs(session.recipe(), line.report)
                                     : outputs(session.recipe(), session.engine(), line.report);
-    outcome.files = publish(session.engine(), files, outcome.folder, files_read(session.recipe()));
+    outcome.files = publish(session.engine(), files, outcome.folder, all_files(session.recipe()));
   }
   outcome.stages = session.engine().results();
   session.note_usage();
-  if ((is_ok || has_failed_only_budgets(session)) && !line.preview) write_run_files(line, session, outcome);
+  if (is_whole && !line.preview) write_run_files(session, line.report, outcome.folder, has_changed(outcome));
   session.tell_trouble();
   if (const auto failure = session.failure()) {
     outcome.code = exit_code(failure);
-    outcome.error = failure->error;
-    outcome.place = session.recipe().where(setting_of(*failure).value_or(""));
+    outcome.error = session.message_of(*failure);
   }
 }
 
@@ -97,15 +84,14 @@ void tell(const Outcome& outcome, Console& console) {
                            hits, outcome.seconds));
 }
 
-// "base.json:12:9: ..." at the start of a message; false where none stands there.
-bool read_place(const std::string& text, BuildVerdict& verdict) {
+// "base.json:12:9: ..." at the start of a message; where none stands there, it is about the whole recipe.
+void read_place(const std::string& text, BuildVerdict& verdict) {
   static const std::regex kPlace(R"(^([^:]+):(\d+):(\d+)(:|$))");
   std::smatch found;
-  if (!std::regex_search(text, found, kPlace)) return false;
+  if (!std::regex_search(text, found, kPlace)) return;
   verdict.recipe = found[1];
   verdict.line = std::stoi(found[2]);
   verdict.column = std::stoi(found[3]);
-  return true;
 }
 }  // namespace
 
@@ -124,6 +110,10 @@ Outcome build_recipe(const CommandLine& line, const RecipeTask& task, Console& c
   };
   try {
     if (task.code != ExitCode::Ok) throw Error(task.code, task.error);
+    if (line.accept) {
+      Session accepting(line, task.resolved, console, nullptr, &share);
+      accept_golden(accepting, console);
+    }
     Session session(line, task.resolved, console, &recipe_events, &share);
     outcome.name = session.recipe().name;
     outcome.folder = output_folder(line, session.recipe(), is_alone);
@@ -168,7 +158,7 @@ BuildVerdict verdict_of(const Outcome& outcome) {
   verdict.code = outcome.code;
   verdict.error = printable(outcome.error);
   verdict.seconds = outcome.seconds;
-  if (outcome.code != ExitCode::Ok && !read_place(outcome.error, verdict)) read_place(outcome.place, verdict);
+  if (outcome.code != ExitCode::Ok) read_place(outcome.error, verdict);
   verdict.stages = outcome.stages.size();
   for (const StageResult& stage : outcome.stages) {
     if (stage.status == StageStatus::Hit) ++verdict.hits;

@@ -22,7 +22,6 @@ struct Outcome {
   std::filesystem::path folder;
   ExitCode code = ExitCode::Ok;
   std::string error;
-  std::string place;  ///< in the recipe, "centaur.json:12:9", of what failed; empty where the error says it
   double seconds = 0;
   std::vector<StageResult> stages;
   std::vector<PublishedFile> files;

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -13,6 +14,13 @@ namespace skinforge {
 using nlohmann::json;
 
 namespace {
+// A golden that is not there yet is no mistake, but a build will say so at its end.
+void tell_missing_golden(const Recipe& recipe, Console& console) {
+  if (recipe.golden && !std::filesystem::exists(recipe.golden->file.resolved))
+    console.issue({"golden-missing", Severity::Warning, recipe.place("/expect/golden"),
+                   printable(recipe.golden->file.text) + " is not there yet; build --accept makes it"});
+}
+
 // The recipe, its files, its clips, every joint (grafting the skeletons meets them all), and what the cuts
 // leave of the surfaces.
 ExitCode check_recipe(const CommandLine& line, const RecipeTask& task, Console& console, json& result) {
@@ -24,8 +32,9 @@ ExitCode check_recipe(const CommandLine& line, const RecipeTask& task, Console& 
     session.run_for({ArtifactNames().graft(), ArtifactNames().selection()});
   }
   session.tell_trouble();
+  tell_missing_golden(session.recipe(), console);
   const auto failure = session.failure();
-  if (failure) result["error"] = failure->error;
+  if (failure) result["error"] = session.message_of(*failure);
   result["stages"] = to_json(session.engine().results());
   return exit_code(failure);
 }

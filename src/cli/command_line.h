@@ -76,13 +76,12 @@ struct CommandLine {
   Verb verb = Verb::Help;
   bool json = false;
   Verbosity verbosity = Verbosity::Normal;
-  std::vector<std::string> recipes;       ///< build, check, plan: one or more; stage: one
-  RecipeChoice choice;                    ///< --set and --only
-  std::vector<std::string> inputs_under;  ///< folders; empty: inputs may lie anywhere
-  std::string shard;                      ///< "2/5"; empty: all
-  std::string stage;                      ///< label; stage run, explain
-  std::string against;                    ///< explain: id of a run; empty: the last, or the one before
-  std::string file;  ///< inspect, verify, validate, repair, bind, deform, compare-skinning
+  std::vector<std::string> recipes;  ///< build, check, plan: one or more; stage: one
+  RecipeChoice choice;               ///< --set, --only, --inputs-under
+  std::string shard;                 ///< "2/5"; empty: all
+  std::string stage;                 ///< label; stage run, explain
+  std::string against;               ///< explain: id of a run; empty: the last, or the one before
+  std::string file;                  ///< inspect, verify, validate, repair, bind, deform, compare-skinning
   SkinningRequest skinning;
   DiffRequest diff;
   std::string out;    ///< empty: out/<name>
@@ -100,6 +99,7 @@ struct CommandLine {
   double max_size_gb = 0;             ///< cache gc; 0: any
   Limits limits;                      ///< --limit
   bool preview = false;               ///< build: parts side by side, at once
+  bool accept = false;                ///< build: the result becomes the golden
   std::string events;                 ///< build: file for what happens; empty: none
   bool strict = false;                ///< validate: warnings count, too
   bool without_khronos = false;       ///< validate: own rules only

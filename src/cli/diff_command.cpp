@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "base/share_text.h"
 #include "base/text.h"
+#include "cli/accept.h"
 #include "cli/commands.h"
 #include "cli/diff_page.h"
 #include "diff/diff_text.h"
@@ -33,18 +35,9 @@ Side read_side(const std::string& path, Console& console) {
 
 // "0.05%" of the diagonal, or a plain number.
 double limit_of(const std::string& text, const std::string& whole) {
-  const bool is_percent = text.ends_with('%');
-  const std::string digits = is_percent ? text.substr(0, text.size() - 1) : text;
-  std::size_t used = 0;
-  double value = -1;
-  try {
-    value = std::stod(digits, &used);
-  } catch (const std::exception&) {
-  }
-  if (used != digits.size() || !(value >= 0) || value > 1e9)
-    throw Error(ExitCode::Usage,
-                fmt::format("--threshold {}: expected a number or a percentage from 0", printable(whole)));
-  return is_percent ? value / 100 : value;
+  if (const auto share = parse_share(text)) return *share;
+  throw Error(ExitCode::Usage,
+              fmt::format("--threshold {}: expected a number or a percentage from 0", printable(whole)));
 }
 
 DiffThresholds thresholds_of(const std::vector<std::string>& words) {
@@ -80,24 +73,15 @@ std::string junit_of(const std::vector<DiffFinding>& findings) {
   return junit_xml(cases);
 }
 
-// B becomes the reference: its bytes take the place of A's, and a note beside it says what that changed.
-void accept(const DiffRequest& request, const Bytes& bytes, const std::string& text, Console& console) {
-  const std::string note =
-      fmt::format("# {} was accepted in the place of {}\n\n```\n{}```\n", request.b, request.a, text);
-  write_output(request.a + ".change.md", note);
-  write_output(request.a, bytes);
-  console.info(request.a + ": accepted; what changed is in " + request.a + ".change.md");
-}
 }  // namespace
 
 ExitCode diff_command(const CommandLine& line, Console& console) {
   const DiffRequest& request = line.diff;
   const DiffThresholds thresholds = thresholds_of(request.thresholds);
   const Side a = read_side(request.a, console), b = read_side(request.b, console);
-  const CharacterDiff diff = compare_characters(a.character, b.character,
-                                                {.bytes_a = a.bytes.size(),
-                                                 .bytes_b = b.bytes.size(),
-                                                 .wants_vertices = !request.html.empty()});
+  const CharacterDiff diff = compare_characters(
+      a.character, b.character,
+      {.bytes_a = a.bytes.size(), .bytes_b = b.bytes.size(), .wants_vertices = !request.html.empty()});
   const std::vector<DiffFinding> findings = judge(diff, thresholds);
   const std::string text = to_text(diff, findings);
   if (!request.junit.empty()) {
@@ -109,7 +93,7 @@ ExitCode diff_command(const CommandLine& line, Console& console) {
     write_output(request.html, page);
     console.info(request.html + " (" + readable_size(page.size()) + ")");
   }
-  if (request.accept) accept(request, b.bytes, text, console);
+  if (request.accept) accept_model(request.a, request.b, b.bytes, text, console);
   const ExitCode code = is_over(findings) && !request.accept ? ExitCode::Different : ExitCode::Ok;
   if (!line.json) {
     print_data(text);

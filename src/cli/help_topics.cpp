@@ -12,11 +12,13 @@ const std::map<std::string, std::string>& topics() {
   2    a mistake on the command line or in a recipe
   3    an input is missing or corrupt
   4    a result is not what was meant: validation, "expect", a damaged cache, a file that was edited
-  5    two models differ (diff)
+  5    two models differ (diff), a result is unlike its golden (build)
   6    some recipes failed, the others are made (build --keep-going)
   7    results differ from run to run
   70   internal error: please report it
   130, 143  ended by SIGINT, SIGTERM; the next build goes on where this one stopped
+  A build that fails "expect" alone, a budget (4) or the golden (5), has written its files: they are there to be looked
+  at. After every other failure the output folder is as it was.
 )"},
                                                              {"environment", R"(Environment
   SKINFORGE_CACHE  folder of the cache (default .skinforge/cache; --cache counts before it)
@@ -50,6 +52,8 @@ const std::map<std::string, std::string>& topics() {
   --retry-failed    runs again what failed before with the same key
   --events FILE     what happens as it happens, one JSON object a line (schema event)
   --json            the verdicts on stdout
+  "expect": { "golden": "golden/centaur.glb" } in a recipe keeps its result like that file; build --accept takes a new
+  one, with a note golden/centaur.glb.change.md of what changed
   diff golden.glb new.glb --html diff.html   status 5 where they differ; --accept takes the new one
 )"}};
   return kTopics;

@@ -14,6 +14,11 @@ void VerbTree::add_recipe_verbs() {
       "--preview", line.preview,
       "Parts cut, placed, skinned and animated side by side, not joined: NAME-preview.glb in no time");
   build
+      ->add_flag("--accept", line.accept,
+                 "Take the result as the golden of its recipe (expect.golden), with a note of what changed")
+      ->excludes("--preview")
+      ->group("Output");
+  build
       ->add_flag("-k,--keep-going", line.keep_going, "Go on with the other recipes when one fails (status 6)")
       ->group("Recipes");
   build->add_flag("--fail-fast", line.fail_fast, "Stop at the first recipe that fails (default)")

@@ -8,6 +8,7 @@
 #include "io/export.h"
 #include "io/image_codec.h"
 #include "pipeline/blob_store.h"
+#include "pipeline/publish.h"
 #include "render/shrink.h"
 #include "report/report_json.h"
 #include "stages/build.h"
@@ -92,6 +93,14 @@ std::string report_page(Session& session) {
   if (viewer.empty()) return html_page(page);
   page.files = {{"model", engine.get<Bytes>(names.glb())}, {"viewer", std::move(viewer)}};
   return html_page(page);
+}
+
+void write_run_files(Session& session, ReportLevel level, const fs::path& folder, bool is_changed) {
+  const fs::path timings = folder / "timings.json", page = folder / "report.html";
+  if (level != ReportLevel::None && (is_changed || !fs::exists(timings)))
+    write_output(timings, to_json(session.timings()));
+  if (level == ReportLevel::Full && (is_changed || !fs::exists(page)))
+    write_output(page, report_page(session));
 }
 
 }  // namespace skinforge

@@ -21,8 +21,9 @@ namespace {
 // quick.
 bool would_fail_again(const StageInfo& stage, ExitCode code) {
   const bool has_limits = stage.name == "import" || stage.name == "rig" || stage.name == "field";
-  return !has_limits && (code == ExitCode::StageFailed || code == ExitCode::Usage ||
-                         code == ExitCode::BadInput || code == ExitCode::Invalid);
+  return !has_limits &&
+         (code == ExitCode::StageFailed || code == ExitCode::Usage || code == ExitCode::BadInput ||
+          code == ExitCode::Invalid || code == ExitCode::Different);
 }
 }  // namespace
 
@@ -68,26 +69,17 @@ Session::Session(const CommandLine& line, const ResolvedRecipe& recipe, Console&
                        .digests = &digests_}) {
   cache_.recall_digests(name_, digests_);
   if (console.has_status_line()) progress_.expect(last_seconds());
-  expect_inputs_under(line.inputs_under);
+  expect_inputs_under(line.choice.inputs_under);
 }
 
 void Session::expect_inputs_under(const std::vector<std::string>& folders) const {
   if (folders.empty()) return;
-  const auto is_below = [](const fs::path& file, const fs::path& folder) {
-    const fs::path below = fs::weakly_canonical(file).lexically_relative(fs::canonical(folder));
-    return !below.empty() && *below.begin() != "..";
-  };
-  for (const fs::path& file : input_files(recipe_)) {
-    std::error_code error;
-    const bool is_inside = std::any_of(folders.begin(), folders.end(), [&](const std::string& folder) {
-      if (!fs::is_directory(folder, error))
-        throw Error(ExitCode::Usage, printable(folder) + ": --inputs-under names no folder");
-      return is_below(file, folder);
-    });
-    if (!is_inside)
+  std::vector<fs::path> files = input_files(recipe_), goldens = golden_files(recipe_);
+  files.insert(files.end(), goldens.begin(), goldens.end());
+  for (const fs::path& file : files)
+    if (!lies_under(file, folders))
       throw Error(ExitCode::Usage, fmt::format("{}: input {} is not below a folder of --inputs-under",
                                                recipe_.where("/inputs"), printable(file.string())));
-  }
 }
 
 bool Session::add_imports() {
@@ -173,16 +165,19 @@ std::optional<StageResult> Session::failure() const {
   return std::nullopt;
 }
 
+std::string Session::message_of(const StageResult& stage) const {
+  const auto setting = setting_of(stage);
+  return setting ? recipe_.place(*setting) + ": " + stage.error : stage.error;
+}
+
 void Session::tell_trouble() {
   for (const Issue& issue : cache_.take_warnings()) console_.issue(issue);
   std::size_t skipped = 0;
   for (const StageResult& result : engine_.results()) {
-    if (result.status == StageStatus::Failed) {
-      const auto setting = setting_of(result);
-      console_.error(printable(fmt::format(
-          "{}{} (stage {}{})", setting ? recipe_.place(*setting) + ": " : "", result.error,
-          result.info.label(), result.is_remembered ? ", as before; --retry-failed runs it again" : "")));
-    }
+    if (result.status == StageStatus::Failed)
+      console_.error(
+          printable(fmt::format("{} (stage {}{})", message_of(result), result.info.label(),
+                                result.is_remembered ? ", as before; --retry-failed runs it again" : "")));
     if (result.status == StageStatus::Skipped) ++skipped;
   }
   if (skipped > 0) console_.info(fmt::format("{} stages that depend on it were skipped", skipped));

@@ -55,6 +55,9 @@ class Session {
 
   /// The first stage that failed; none when all is well.
   std::optional<StageResult> failure() const;
+  /// Why a stage failed, with its place in the recipe where it has one: "centaur.json:12:9: /inputs/horse:
+  /// ...".
+  std::string message_of(const StageResult& stage) const;
   /// Says the errors of failed stages and the cache's warnings.
   void tell_trouble();
 

@@ -83,8 +83,8 @@ void VerbTree::add_choice_options(CLI::App* verb) {
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false)
       ->group("Recipes");
-  verb->add_option("--inputs-under", line.inputs_under,
-                   "Refuse recipes with inputs elsewhere, links followed")
+  verb->add_option("--inputs-under", line.choice.inputs_under,
+                   "Refuse recipes that name files elsewhere (models, extends, include), links followed")
       ->type_name("DIR")
       ->allow_extra_args(false)
       ->group("Recipes");

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "recipe/recipe_file.h"
+#include "recipe/recipe_files.h"
 
 namespace skinforge {
 namespace fs = std::filesystem;
@@ -31,6 +32,8 @@ std::string unescaped(std::string_view step) {
 // Reads files and what they name; `chain` are the files that led here.
 class Composer {
  public:
+  explicit Composer(const std::vector<std::string>& inputs_under) : inputs_under_(inputs_under) {}
+
   Value file(const fs::path& path, const Value* named_by) {
     enter(path, named_by);
     Value root = with_context_of(named_by, [&] { return read_value_file(path); });
@@ -62,6 +65,8 @@ class Composer {
     for (const fs::path& before : chain_)
       if (named_by && fs::equivalent(before, path, error))
         fail(*named_by, fmt::format("\"{}\" leads back to itself", printable(path.string())));
+    if (named_by && !inputs_under_.empty() && !lies_under(path, inputs_under_))
+      fail(*named_by, fmt::format("{} is not below a folder of --inputs-under", printable(path.string())));
     if (named_by && chain_.size() >= kMaxDepth)
       fail(*named_by, fmt::format("files on files deeper than {}", kMaxDepth));
     if (named_by && ++files_ > kMaxFiles) fail(*named_by, fmt::format("more than {} files", kMaxFiles));
@@ -121,6 +126,7 @@ class Composer {
     return merged(*found, value);
   }
 
+  const std::vector<std::string>& inputs_under_;
   std::vector<fs::path> chain_;
   std::size_t files_ = 0;
 };
@@ -164,12 +170,12 @@ const Value* find_value(const Value& root, std::string_view pointer) {
   return at;
 }
 
-Value compose_file(const fs::path& path) {
-  return Composer().file(path, nullptr);
+Value compose_file(const fs::path& path, const std::vector<std::string>& inputs_under) {
+  return Composer(inputs_under).file(path, nullptr);
 }
 
-Value compose(Value root, const fs::path& path) {
-  return Composer().text(std::move(root), path);
+Value compose(Value root, const fs::path& path, const std::vector<std::string>& inputs_under) {
+  return Composer(inputs_under).text(std::move(root), path);
 }
 
 }  // namespace skinforge

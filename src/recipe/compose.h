@@ -16,9 +16,10 @@ namespace skinforge {
 ///    members of the object laid over it; in a list, a list is spliced in.
 /// Paths are relative to the file that names them, and values remember the file they come from. Throws Error:
 /// Usage at the place of what leads to a circle or nowhere, or deeper than 16 files.
-Value compose_file(const std::filesystem::path& path);
+Value compose_file(const std::filesystem::path& path, const std::vector<std::string>& inputs_under = {});
 /// The same where the text of the file is in hand.
-Value compose(Value root, const std::filesystem::path& path);
+Value compose(Value root, const std::filesystem::path& path,
+              const std::vector<std::string>& inputs_under = {});
 
 /// `patch` laid over `base` (RFC 7396). Members of `base` keep their order, new ones follow.
 Value merged(Value base, const Value& patch);

@@ -3,6 +3,7 @@
 #include "base/safe_name.h"
 #include "base/text.h"
 #include "recipe/recipe.h"
+#include "recipe/recipe_files.h"
 #include "recipe/recipe_parts.h"
 #include "recipe/recipe_places.h"
 #include "recipe/recipe_values.h"
@@ -12,20 +13,28 @@ namespace skinforge {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr int kRecipeVersion = 1;
 constexpr std::size_t kMaxIncludeDepth = 16;  // ours: recipes in recipes in recipes
 const std::initializer_list<std::string_view> kKeys = {
     "$schema", "recipe_version", "name",        "inputs", "base",  "ops",
     "surface", "animation",      "correctives", "output", "expect"};
 
+const char* hint_for(const Value& version) {
+  if (version.kind != Value::Kind::Number) return "";
+  return version.number > kRecipeVersion ? "; a newer skinforge reads it" : "; skinforge migrate rewrites it";
+}
+
 void expect_version(const ValueReader& reader) {
   for (const auto& [key, value] : reader.members()) {
     if (key != "recipe_version") continue;
     if (value.number() == kRecipeVersion) return;
-    value.fail(fmt::format("expected recipe version {}, found {}", kRecipeVersion, value.value().describe()));
+    value.fail(fmt::format("expected recipe version {}, found {}{}", kRecipeVersion, value.value().describe(),
+                           hint_for(value.value())));
   }
   reader.object(kKeys);
-  reader.fail(fmt::format("missing key \"recipe_version\" (this tool reads version {})", kRecipeVersion));
+  reader.fail(
+      fmt::format("missing key \"recipe_version\" (this tool reads version {}; skinforge migrate brings "
+                  "older recipes to it)",
+                  kRecipeVersion));
 }
 
 std::string safe_name(const ValueReader& reader) {
@@ -39,8 +48,9 @@ std::string safe_name(const ValueReader& reader) {
 // Reads one recipe file; `including` are the files that led here, outermost first.
 class RecipeReader {
  public:
-  RecipeReader(const fs::path& path, const std::vector<fs::path>& including)
-      : path_(path), including_(including) {}
+  RecipeReader(const fs::path& path, const std::vector<fs::path>& including,
+               const std::vector<std::string>& inputs_under)
+      : path_(path), including_(including), inputs_under_(inputs_under) {}
 
   Recipe read(const ResolvedRecipe& resolved) const {
     const std::string file = path_.string();
@@ -63,7 +73,7 @@ class RecipeReader {
       recipe.correctives = read_correctives(*correctives, recipe);
     if (const auto output = object.find("output")) recipe.output = read_output(*output);
     if (recipe.output.glb.empty()) recipe.output.glb = recipe.name + ".glb";
-    if (const auto expect = object.find("expect")) recipe.expect = read_expectations(*expect);
+    if (const auto expect = object.find("expect")) read_expectations(*expect, recipe);
     add_places_and_values(resolved.root, recipe);
     return recipe;
   }
@@ -73,6 +83,7 @@ class RecipeReader {
 
   fs::path path_;
   std::vector<fs::path> including_;
+  std::vector<std::string> inputs_under_;
 };
 
 // The one recipe of a file that another recipe or the program asks for.
@@ -81,7 +92,7 @@ Recipe read_only_one(std::vector<ResolvedRecipe> recipes, const fs::path& path,
   if (recipes.size() != 1)
     throw Error(ExitCode::Usage, fmt::format("{}: this recipe makes {} characters; one is wanted here",
                                              path.string(), recipes.size()));
-  return RecipeReader(path, including).read(recipes.front());
+  return RecipeReader(path, including, recipes.front().inputs_under).read(recipes.front());
 }
 
 Recipe RecipeReader::included(const ValueReader& reader, const fs::path& path) const {
@@ -93,12 +104,14 @@ Recipe RecipeReader::included(const ValueReader& reader, const fs::path& path) c
       reader.fail("recipe \"" + printable(path.string()) + "\" includes itself");
   if (chain.size() > kMaxIncludeDepth)
     reader.fail(fmt::format("recipes inside each other deeper than {}", kMaxIncludeDepth));
-  return read_only_one(resolve_recipes(path), path, chain);
+  if (!inputs_under_.empty() && !lies_under(path, inputs_under_))
+    reader.fail(fmt::format("{} is not below a folder of --inputs-under", printable(path.string())));
+  return read_only_one(resolve_recipes(path, {.inputs_under = inputs_under_}), path, chain);
 }
 }  // namespace
 
 Recipe read_resolved(const ResolvedRecipe& resolved) {
-  return RecipeReader(resolved.path, {}).read(resolved);
+  return RecipeReader(resolved.path, {}, resolved.inputs_under).read(resolved);
 }
 
 Recipe load_recipe(const fs::path& path) {

@@ -303,6 +303,23 @@ struct Expectations {
   }
 };
 
+/// The character that the result is compared with ("expect.golden"), and what is still the same: shares of
+/// the golden's diagonal, weights in [0, 2], seconds, as `DiffThresholds` gives them.
+struct GoldenOptions {
+  RecipePath file;  ///< a .glb
+  double geometry = 1e-5;
+  double weights = 0.01;
+  double animation = 5e-4;
+  double duration = 1e-3;
+  bool structure = true;  ///< whether any edit of the structure is a difference
+
+  /// All but where the file lies.
+  template <class Archive>
+  friend void fields(Archive& a, GoldenOptions& g) {
+    a(g.geometry, g.weights, g.animation, g.duration, g.structure);
+  }
+};
+
 struct Recipe {
   std::filesystem::path path;
   std::string variant;              ///< cell of the recipe's matrix, "body=horse torso=knight"; else empty
@@ -315,6 +332,7 @@ struct Recipe {
   CorrectivesOptions correctives;
   OutputOptions output;
   Expectations expect;
+  std::optional<GoldenOptions> golden;
   std::map<std::string, std::string> places;  ///< JSON pointer -> "centaur.json:12:9"
   std::map<std::string, std::string> values;  ///< JSON pointer of each value or list of values -> its text
 
@@ -335,6 +353,9 @@ std::map<std::string, std::string> recipe_settings(const Recipe& recipe);
 /// too, but no path, since where files lie changes nothing (their contents have digests of their own), and
 /// neither comments nor the order of keys.
 Digest recipe_digest(const Recipe& recipe);
+
+/// The version of recipes that this tool reads; older ones `migrate` rewrites (migrate.h).
+constexpr int kRecipeVersion = 1;
 
 /// Reads a recipe: JSON, JSON with comments (.json, .jsonc), YAML (.yaml, .yml). Inputs that are recipes are
 /// read too. Names, kinds, ranges and references between parts of the recipe are checked, files other than

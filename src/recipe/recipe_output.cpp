@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include "base/safe_name.h"
+#include "base/share_text.h"
 #include "base/text.h"
 #include "recipe/recipe_parts.h"
 #include "recipe/recipe_values.h"
@@ -30,6 +31,37 @@ ExpectedRange read_range(const ValueReader& reader) {
   if (range.min && range.max && *range.min > *range.max) reader.fail("\"min\" is above \"max\"");
   return range;
 }
+
+// A share of the diagonal: a number, or "0.05%".
+double read_share(const ValueReader& reader) {
+  if (!reader.is_string()) return reader.number(0, kMaxShare);
+  if (const auto share = parse_share(reader.value().text)) return *share;
+  reader.fail_expected("a number, or a percentage such as \"0.05%\"");
+}
+
+RecipePath golden_file(const ValueReader& reader) {
+  RecipePath file = read_path(reader);
+  if (extension_of(file.resolved) != ".glb") reader.fail("a golden is a GLB; the name must end in .glb");
+  return file;
+}
+
+GoldenOptions read_golden(const ValueReader& reader) {
+  GoldenOptions golden;
+  if (!reader.is_object()) {
+    golden.file = golden_file(reader);
+    return golden;
+  }
+  const ObjectReader object =
+      reader.object({"file", "geometry", "weights", "animation", "duration", "structure"});
+  golden.file = golden_file(object.at("file"));
+  if (const auto geometry = object.find("geometry")) golden.geometry = read_share(*geometry);
+  if (const auto weights = object.find("weights")) golden.weights = weights->number(0, 2);
+  if (const auto animation = object.find("animation")) golden.animation = read_share(*animation);
+  if (const auto duration = object.find("duration")) golden.duration = duration->number(0, kMaxLength);
+  if (const auto structure = object.find("structure"))
+    golden.structure = structure->choice<bool>({{"none", true}, {"any", false}});
+  return golden;
+}
 }  // namespace
 
 OutputOptions read_output(const ValueReader& reader) {
@@ -47,17 +79,17 @@ OutputOptions read_output(const ValueReader& reader) {
   return output;
 }
 
-Expectations read_expectations(const ValueReader& reader) {
+void read_expectations(const ValueReader& reader, Recipe& recipe) {
   const ObjectReader object =
       reader.object({"triangles", "vertices", "joints", "influences", "materials", "images", "morph_targets",
-                     "clips", "bytes", "watertight", "clip_names"});
-  Expectations expect;
+                     "clips", "bytes", "watertight", "clip_names", "golden"});
+  Expectations& expect = recipe.expect;
   for (const auto& [key, value] : reader.members())
-    if (key != "watertight" && key != "clip_names") expect.ranges[key] = read_range(value);
+    if (key != "watertight" && key != "clip_names" && key != "golden") expect.ranges[key] = read_range(value);
   if (const auto watertight = object.find("watertight")) expect.watertight = watertight->boolean();
   if (const auto names = object.find("clip_names"))
     for (const ValueReader& name : names->items()) expect.clips.push_back(name.text());
-  return expect;
+  if (const auto golden = object.find("golden")) recipe.golden = read_golden(*golden);
 }
 
 }  // namespace skinforge

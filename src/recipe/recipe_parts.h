@@ -29,6 +29,7 @@ CorrectivesOptions read_correctives(const ValueReader& reader, const Recipe& rec
 
 OutputOptions read_output(const ValueReader& reader);
 
-Expectations read_expectations(const ValueReader& reader);
+/// Budgets and the golden.
+void read_expectations(const ValueReader& reader, Recipe& recipe);
 
 }  // namespace skinforge

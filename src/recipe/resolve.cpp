@@ -91,7 +91,7 @@ std::vector<ResolvedRecipe> resolved(Value root, const fs::path& path, const Rec
     Variables of_cell = variables;
     if (!cell.label.empty()) of_cell["matrix"] = cell.values;
     for (const Value::Member& extra : cell.variables) of_cell[extra.key] = extra.value;
-    ResolvedRecipe recipe{path, cell.label, substituted(root, of_cell)};
+    ResolvedRecipe recipe{path, cell.label, substituted(root, of_cell), choice.inputs_under};
     for (const std::string& word : choice.set)
       if (word.starts_with('/')) set_property(recipe.root, word);
     value_count += count_values(recipe.root);
@@ -139,12 +139,12 @@ void print(const Value& value, const std::string& head, std::size_t indent, cons
 }  // namespace
 
 std::vector<ResolvedRecipe> resolve_recipes(const fs::path& path, const RecipeChoice& choice) {
-  return resolved(compose_file(path), path, choice);
+  return resolved(compose_file(path, choice.inputs_under), path, choice);
 }
 
 std::vector<ResolvedRecipe> resolve_text(const std::string& text, const fs::path& path,
                                          const RecipeChoice& choice) {
-  return resolved(compose(parse_value_text(text, path), path), path, choice);
+  return resolved(compose(parse_value_text(text, path), path, choice.inputs_under), path, choice);
 }
 
 std::string expanded_text(const Value& root) {

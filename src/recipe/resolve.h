@@ -11,8 +11,11 @@ namespace skinforge {
 
 /// What the command line asks of a recipe.
 struct RecipeChoice {
-  std::vector<std::string> set;   ///< "scale=1.2": a variable; "/output/influences=8": any property
-  std::vector<std::string> only;  ///< "torso=knight": cells of the matrix with that value
+  std::vector<std::string> set = {};   ///< "scale=1.2": a variable; "/output/influences=8": any property
+  std::vector<std::string> only = {};  ///< "torso=knight": cells of the matrix with that value
+  /// Folders below which everything lies that a recipe names; empty: anywhere. Recipes and parts of them
+  /// elsewhere are not read; of models `lies_under` says it.
+  std::vector<std::string> inputs_under = {};
 };
 
 /// One recipe with everything settled: no extends, include, vars, matrix or ${...} are left.
@@ -20,6 +23,7 @@ struct ResolvedRecipe {
   std::filesystem::path path;
   std::string variant;  ///< cell of the matrix, "body=horse torso=knight"; empty without one
   Value root;           ///< values know where they come from
+  std::vector<std::string> inputs_under = {};  ///< as chosen; recipes inside it are held to it, too
 };
 
 /// All recipes of a file, in the order of its matrix (the last axis fastest, then what "include" adds);

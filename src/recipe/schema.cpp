@@ -27,8 +27,10 @@ std::string recipe_schema() {
                                 {{{"method", "dqs"}, {"targets", 4}}})},
       {"output",
        described("Files to write, inside the output folder.", output(), {{{"glb", "centaur.glb"}}})},
-      {"expect", described("Budgets that the result has to keep; exit 4 when it does not.", expect(),
-                           {{{"triangles", 6000}, {"influences", 4}, {"watertight", true}}})},
+      {"expect",
+       described(
+           "Budgets that the result has to keep, exit 4 when it does not; and a golden to stay like, exit 5.",
+           expect(), {{{"triangles", 6000}, {"influences", 4}, {"watertight", true}}})},
       {"extends", described("Recipes that this one changes: what stands here is laid over them (merge patch, "
                             "null takes away), the later over the earlier.",
                             {{"anyOf", {path(), {{"type", "array"}, {"items", path()}, {"minItems", 1}}}}},

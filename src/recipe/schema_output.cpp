@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "recipe/recipe.h"
+#include "recipe/recipe_values.h"
 #include "recipe/schema_parts.h"
 #include "recipe/schema_values.h"
 
@@ -20,6 +21,37 @@ Json budget(const char* unit) {
   const Json range = closed_object(
       {{"min", described("At least.", limit, {1})}, {"max", described("At most.", limit, {6000})}});
   return {{"anyOf", {limit, range}}, {"unit", unit}};
+}
+
+// A share of the golden's diagonal: a number, or a percentage.
+Json share(double preset) {
+  const Json percent = {{"type", "string"}, {"pattern", R"(^[0-9]+(\.[0-9]+)?%$)"}};
+  return with_default(
+      {{"anyOf", {{{"type", "number"}, {"minimum", 0}}, percent}}, {"unit", "of the diagonal"}}, preset);
+}
+
+Json golden() {
+  const std::string any_path = kPath;
+  const Json file = {{"type", "string"},
+                     {"pattern", any_path.substr(0, any_path.size() - 1) + R"(\.[gG][lL][bB]$)"}};
+  const GoldenOptions preset;
+  const Json object = closed_object(
+      {
+          {"file", described("The golden, a GLB, relative to the recipe.", file, {"golden/centaur.glb"})},
+          {"geometry", described("Largest distance between the surfaces that is still the same.",
+                                 share(preset.geometry), {"0.001%", 1e-5})},
+          {"weights", described("Largest change of a vertex's weights, summed over its joints.",
+                                with_default(number(0, 2, "ratio"), preset.weights), {0.02})},
+          {"animation", described("Largest distance by which a clip may move a vertex otherwise.",
+                                  share(preset.animation), {"0.05%", 5e-4})},
+          {"duration", described("Largest change of a clip's length.",
+                                 with_default(number(0, kMaxLength, "s"), preset.duration), {0.02})},
+          {"structure",
+           described("Edits of names and counts that are still the same: none or any.",
+                     with_default({{"type", "string"}, {"enum", {"none", "any"}}}, "none"), {"any"})},
+      },
+      {"file"});
+  return {{"anyOf", {file, object}}};
 }
 }  // namespace
 
@@ -61,6 +93,9 @@ Json expect() {
        described("Whether the surface is closed (true) or open (false).", {{"type", "boolean"}}, {true})},
       {"clip_names", described("Clips that must be there.", {{"type", "array"}, {"items", text()}},
                                Json::array({Json::array({"Walk", "Idle"})}))},
+      {"golden", described("A character that the result must still be like: its file, or an object with the "
+                           "file and what is still the same. build --accept writes it.",
+                           golden(), {"golden/centaur.glb"})},
   });
 }
 

@@ -192,6 +192,20 @@ struct ClipReport {
   std::optional<double> turn_ratio;
 };
 
+/// One verdict on the result beside the golden of its recipe.
+struct GoldenFindingReport {
+  std::string group;
+  std::string name;
+  std::string text;
+  bool is_over = false;
+};
+
+struct GoldenReport {
+  std::string file;
+  bool missing = false;
+  std::vector<GoldenFindingReport> findings;
+};
+
 struct Report {
   std::int64_t report_version = 1;
   bool preview = false;
@@ -207,6 +221,7 @@ struct Report {
   WeightsReport weights;
   std::vector<ClipReport> clips;
   std::vector<FileReport> outputs;
+  std::optional<GoldenReport> golden;
   std::vector<Issue> issues;
 };
 

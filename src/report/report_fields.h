@@ -264,6 +264,21 @@ void describe(const ClipReport& c, F& f) {
 }
 
 template <class F>
+void describe(const GoldenFindingReport& g, F& f) {
+  f("group", g.group, "text", "structure, geometry, skin or animation");
+  f("name", g.name, "text", "What was compared");
+  f("text", g.text, "text", "One sentence with the values and the limit");
+  f("is_over", g.is_over, "yes/no", "Whether it is over its threshold");
+}
+
+template <class F>
+void describe(const GoldenReport& g, F& f) {
+  f("file", g.file, "text", "Name of the golden, without folders");
+  f("missing", g.missing, "yes/no", "Whether there is none yet");
+  f("findings", g.findings, "list", "Every comparison, in the order of the groups");
+}
+
+template <class F>
 void describe(const Report& r, F& f) {
   f("report_version", r.report_version, "count",
     "Version of this format; raised when a property changes its meaning");
@@ -281,6 +296,7 @@ void describe(const Report& r, F& f) {
   f("joints", r.joints, "list", "Where each joint of the result comes from");
   f("joint_maps", r.joint_maps, "list", "Which joint of the result stands for each joint of each source");
   f("outputs", r.outputs, "list", "The files that were written, this report excepted");
+  f("golden", r.golden, "object", "How the result differs from the golden of the recipe; null without one");
   f("issues", r.issues, "list", "What was odd on the way, repairs of inputs excepted");
 }
 

@@ -50,6 +50,9 @@ struct ArtifactNames {
   std::string glb() const { return prefix + "glb"; }
   std::string obj() const { return prefix + "obj"; }
   std::string validation() const { return prefix + "validation"; }
+  std::string expectations() const { return prefix + "expectations"; }
+  std::string golden() const { return prefix + "golden"; }  ///< the file; no bytes when there is none
+  std::string comparison() const { return prefix + "comparison"; }
   std::string picture(const std::string& name) const { return prefix + "picture:" + name; }
   std::string view() const { return prefix + "view"; }
   std::string preview_glb() const { return prefix + "preview_glb"; }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "base/hash.h"
+#include "base/limits.h"
 #include "base/text.h"
 #include "io/import.h"
 #include "stages/expect_stage.h"
@@ -233,6 +235,18 @@ std::string file_name_of_picture(const std::string& name) {
   return "pictures/" + name + ".png";
 }
 
+// A golden that is not there yet is a source without bytes: what is made of it has another key once it is.
+void add_golden(const Recipe& recipe, Engine& engine, const ArtifactNames& names) {
+  const std::string path = recipe.golden->file.resolved.string();
+  with_context(recipe.place("/expect/golden"), [&] {
+    InputFile file{path, {}, sha256(std::span<const std::byte>())};
+    if (std::filesystem::exists(path)) file = read_input_file(path, limits().file, &engine.digests());
+    auto bytes = std::make_shared<const Bytes>(std::move(file.bytes));
+    engine.put_source(names.golden(), file.digest, bytes->size(), [bytes] { return *bytes; });
+  });
+  engine.add(make_compare_stage(names, *recipe.golden));
+}
+
 // What tells of the result. Called when all stages that the report reads are there.
 void add_report(const Recipe& recipe, const std::vector<ClipRequest>& clips, std::size_t source_count,
                 ReportLevel level, Engine& engine, const ArtifactNames& names) {
@@ -288,8 +302,10 @@ void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const A
   if (recipe.correctives.method != RecipeDeform::None) engine.add(make_correct_stage(names, recipe, clips));
   engine.add(make_export_stage(names, recipe, clips));
   engine.add(make_validate_stage(names, recipe));
+  if (recipe.golden) add_golden(recipe, engine, names);
   if (level != ReportLevel::None) add_report(recipe, clips, sources.size(), level, engine, names);
-  if (!recipe.expect.is_empty()) engine.add(make_expect_stage(names, recipe));  // nothing waits for it
+  if (!recipe.expect.is_empty()) engine.add(make_expect_stage(names, recipe));  // nothing waits for these two
+  if (recipe.golden) engine.add(make_golden_stage(names, *recipe.golden));
 }
 
 void add_preview(const Recipe& recipe, Engine& engine, const ArtifactNames& names) {

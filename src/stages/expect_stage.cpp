@@ -38,10 +38,10 @@ class Expect final : public Stage {
   }
 
   StageInfo info() const override {
-    return {.name = kExpectStage,
+    return {.name = "expect",
             .version = 1,
             .reads = {names_.result(), names_.glb()},
-            .writes = {names_.prefix + "expectations"}};
+            .writes = {names_.expectations()}};
   }
   void add_to_key(Hasher& key) const override {
     key.add_value("expect", expect_);
@@ -57,7 +57,7 @@ class Expect final : public Stage {
     check_closed(result, faults);
     for (const std::string& clip : expect_.clips) check_clip(result, clip, faults);
     if (!faults.empty()) throw Error(ExitCode::Invalid, fmt::format("{}", fmt::join(faults, "; ")));
-    out.put(names_.prefix + "expectations", found);
+    out.put(names_.expectations(), found);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include "report/frame_runs.h"
 #include "report/measures.h"
 #include "report/report_json.h"
+#include "stages/golden_comparison.h"
 #include "stages/inputs.h"
 #include "stages/junction_report.h"
 #include "stages/origins.h"
@@ -87,17 +88,19 @@ class MakeReport final : public Stage {
         clips_(clips.begin(), clips.end()),
         site_count_(recipe.operations.size()),
         issues_(std::move(issues)) {
+    if (recipe.golden) golden_ = recipe.golden->file.resolved.filename().string();
     for (const RecipeInput& input : recipe.inputs) files_.push_back(input.file.resolved.filename().string());
   }
 
   StageInfo info() const override {
     StageInfo info{.name = "report",
-                   .version = 2,
+                   .version = 3,
                    .reads = joined(joined(character_names(names_, inputs_), contents_names(names_, inputs_)),
                                    {names_.graft(), names_.joint_maps(), names_.surface(),
                                     names_.weight_record(), names_.color_steps(), names_.result(),
                                     names_.glb(), names_.obj(), names_.validation()}),
                    .writes = {names_.report()}};
+    if (!golden_.empty()) info.reads.push_back(names_.comparison());
     for (std::size_t k = 0; k < site_count_; ++k) info.reads.push_back(names_.field(k));
     for (const ClipRequest& clip : clips_) {
       info.reads.push_back(names_.clip(clip.name));
@@ -112,6 +115,7 @@ class MakeReport final : public Stage {
     key.add("recipe", recipe_digest_);
     key.add("name", name_);
     key.add_value("files", files_);
+    if (!golden_.empty()) key.add("golden", golden_);
   }
 
   void run(const StageInput& in, StageOutput& out, IssueSink&) const override {
@@ -140,6 +144,7 @@ class MakeReport final : public Stage {
                                  result_origins(characters, inputs_, graft, surface.joined, result, clips_));
     add_output(in, names_.glb(), glb_, report);
     add_output(in, names_.obj(), obj_, report);
+    if (!golden_.empty()) report.golden = golden_report(in.get<GoldenComparison>(names_.comparison()));
     report.issues = issues_in(in, issues_.of_build);
     const std::string text = to_json(report);
     const auto* begin = reinterpret_cast<const std::byte*>(text.data());
@@ -175,6 +180,13 @@ class MakeReport final : public Stage {
       input.repairs = issues_in(in, issues_.of_input[i]);
       report.inputs.push_back(std::move(input));
     }
+  }
+
+  GoldenReport golden_report(const GoldenComparison& comparison) const {
+    GoldenReport report{golden_, comparison.is_missing, {}};
+    for (const DiffFinding& f : comparison.findings)
+      report.findings.push_back({f.group, f.name, f.text, f.is_over});
+    return report;
   }
 
   void add_operations(const Graft& graft, Report& report) const {
@@ -241,6 +253,7 @@ class MakeReport final : public Stage {
   ArtifactNames names_;
   std::vector<std::string> inputs_, files_;
   std::string name_, recipe_digest_, glb_, obj_;
+  std::string golden_;  // file name; empty without one
   std::size_t influences_;
   std::vector<ClipRequest> clips_;
   std::size_t site_count_;

@@ -56,6 +56,13 @@ const std::vector<StageSetting> kSettings = {
     {"/output/animated", {}},
     {"/output/influences", {"bind", "correct", "expect"}},
     {"/expect", {"expect"}},
+    {"/expect/golden", {"report"}, true},
+    {"/expect/golden/file", {"report"}, true},
+    {"/expect/golden/geometry", {"compare"}},
+    {"/expect/golden/weights", {"compare"}},
+    {"/expect/golden/animation", {"compare"}},
+    {"/expect/golden/duration", {"compare"}},
+    {"/expect/golden/structure", {"compare"}},
 };
 
 // "/ops/0/place/scale" is below "/ops/*" and "/ops/*/place".
@@ -123,11 +130,12 @@ std::optional<std::string> setting_of_source(std::string_view artifact) {
   const std::size_t slash = artifact.substr(0, colon).rfind('/');
   std::string_view prefix = artifact.substr(0, slash == std::string_view::npos ? 0 : slash + 1);
   std::string_view name = artifact.substr(prefix.size());
-  if (!name.starts_with(kFile)) return std::nullopt;
-  name = name.substr(kFile.size(), name.rfind(':') - kFile.size());
   std::string pointer;
   for (; !prefix.empty(); prefix.remove_prefix(prefix.find('/') + 1))
     pointer += "/inputs/" + std::string(prefix.substr(0, prefix.find('/'))) + "/recipe";
+  if (name == "golden") return pointer + "/expect/golden";
+  if (!name.starts_with(kFile)) return std::nullopt;
+  name = name.substr(kFile.size(), name.rfind(':') - kFile.size());
   return pointer + "/inputs/" + std::string(name);
 }
 

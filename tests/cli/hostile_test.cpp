@@ -123,6 +123,33 @@ TEST(Hostile, InputsCanBeKeptBelowAFolder) {
   }
 }
 
+// So do the files that a recipe is made of: nothing outside is opened, whatever way leads there.
+TEST(Hostile, PartsOfRecipesCanBeKeptBelowAFolder) {
+  const testing::TemporaryFolder folder;
+  fs::create_directories(folder / "project");
+  fs::copy_file(testing::repository_file("data/human.obj"), folder / "project/human.obj");
+  const std::string whole =
+      R"({ "recipe_version": 1, "name": "r", "inputs": { "a": "project/human.obj" }, "base": "a" })";
+  std::ofstream(folder / "outside.json") << whole;
+  fs::create_symlink("../outside.json", folder / "project/link.json");
+  const std::string head = R"({ "recipe_version": 1, "name": "r", "base": "a", "inputs": { "a": )";
+  const std::vector<std::string> recipes = {
+      R"({ "extends": "../outside.json" })", R"({ "extends": "link.json" })",
+      head + R"({ "file": "human.obj" } }, "ops": [ { "include": "../outside.json#/ops" } ] })",
+      head + R"({ "recipe": "../outside.json" } } })",
+      head + R"("human.obj" }, "expect": { "golden": "../golden.glb" } })"};
+  for (const std::string& recipe : recipes) {
+    std::ofstream(folder / "project/r.json") << recipe;
+    const auto plan =
+        Program(SKINFORGE_BINARY, {"plan", "project/r.json", "--inputs-under", "project", "--cache", "cache"},
+                folder.path())
+            .finish();
+    EXPECT_EQ(plan.status, 2) << recipe;
+    EXPECT_THAT(plan.err, HasSubstr("is not below a folder of --inputs-under")) << recipe;
+    EXPECT_THAT(plan.err, ::testing::ContainsRegex("r\\.json:[0-9]+:[0-9]+: ")) << recipe;
+  }
+}
+
 TEST(Hostile, LimitsAreToldAndRaisedOnTheCommandLine) {
   const testing::TemporaryFolder folder;
   const auto inspect = [&](const std::string& limit) {

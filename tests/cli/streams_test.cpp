@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -36,6 +37,22 @@ class Streams : public ::testing::Test {
     return Program(SKINFORGE_BINARY, arguments, folder.path()).finish();
   }
 
+  // The words under "Subcommands:".
+  std::set<std::string> verbs_of_help() const {
+    std::istringstream lines(call({"help"}).out);
+    std::set<std::string> verbs;
+    bool is_list = false;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("Subcommands:")) {
+        is_list = true;
+      } else if (is_list && line.starts_with("  ") && line.size() > 2 && line[2] != ' ') {
+        verbs.insert(line.substr(2, line.find(' ', 2) - 2));
+      }
+    }
+    EXPECT_GT(verbs.size(), 15U);
+    return verbs;
+  }
+
   testing::TemporaryFolder folder;
 };
 
@@ -48,6 +65,10 @@ TEST_F(Streams, Goal16EveryVerbSpeaksJson) {
                                                        {"expand", "only.json"},
                                                        {"graph", "only.json"},
                                                        {"stage", "list", "only.json"},
+                                                       {"stage", "run", "only.json", "import a"},
+                                                       {"bind", "human.glb", "--out", "bound"},
+                                                       {"deform", "human.glb", "--frames", "2"},
+                                                       {"compare-skinning", "human.glb", "--frames", "2"},
                                                        {"inspect", "human.glb"},
                                                        {"validate", "human.glb"},
                                                        {"repair", "human.glb", "-o", "r.glb"},
@@ -69,8 +90,10 @@ TEST_F(Streams, Goal16EveryVerbSpeaksJson) {
                                                        {"cache", "clear"},
                                                        {"no-such-verb"},
                                                        {"inspect", "nothing.glb"}};
+  std::set<std::string> called;
   for (std::vector<std::string> words : calls) {
     const std::string name = words.front() + " " + words.back();
+    called.insert(words.front());
     words.emplace_back("--json");
     const ProgramResult result = call(words);
     const json document = json::parse(result.out, nullptr, false);
@@ -78,6 +101,7 @@ TEST_F(Streams, Goal16EveryVerbSpeaksJson) {
     for (const std::string& text : {result.out, result.err})
       EXPECT_THAT(text, Not(HasSubstr("\x1b"))) << name;
   }
+  for (const std::string& verb : verbs_of_help()) EXPECT_TRUE(called.contains(verb)) << verb;
 }
 
 // Each line of the stream is an event of the schema, in order, for stages that run and for those from the

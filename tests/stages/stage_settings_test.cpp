@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "diff/character_diff.h"
 #include "pipeline/engine.h"
 #include "recipe/schema_properties.h"
 #include "stages/build.h"
@@ -29,7 +30,7 @@ json full_recipe() {
         "place": { "align": "none", "scale": 1.2, "offset": [0, 0.355, 0.683] },
         "surface": { "elements": "quads" } },
       { "op": "remove", "at": "Tail2" } ],
-    "animation": { "clips": ["Walk", "Gallop"] }, "expect": { "triangles": 9000 } })");
+    "animation": { "clips": ["Walk", "Gallop"] }, "expect": { "triangles": 9000, "golden": { "file": "data/horse.glb" } } })");
 }
 
 json bound_recipe() {
@@ -149,6 +150,12 @@ std::vector<Flip> flips() {
       {"/expect/bytes", "/expect/bytes", 1},
       {"/expect/watertight", "/expect/watertight", true},
       {"/expect/clip_names", "/expect/clip_names", {"Walk"}},
+      {"/expect/golden/file", "/expect/golden/file", "data/human.glb"},
+      {"/expect/golden/geometry", "/expect/golden/geometry", "2%"},
+      {"/expect/golden/weights", "/expect/golden/weights", 0.5},
+      {"/expect/golden/animation", "/expect/golden/animation", 0.1},
+      {"/expect/golden/duration", "/expect/golden/duration", 1},
+      {"/expect/golden/structure", "/expect/golden/structure", "any"},
   };
 }
 
@@ -242,6 +249,17 @@ bool is_covered_elsewhere(const std::string& pattern) {
   const auto& all = schema_properties();
   return std::any_of(all.begin(), all.end(),
                      [&](const SchemaProperty& p) { return p.pattern.starts_with(pattern + "/"); });
+}
+
+// The limits of a golden are those of `diff` where the recipe does not say otherwise.
+TEST(GoldenOptions, AreThoseOfDiff) {
+  const GoldenOptions golden;
+  const DiffThresholds diff;
+  EXPECT_EQ(golden.geometry, diff.geometry);
+  EXPECT_EQ(golden.weights, diff.weights);
+  EXPECT_EQ(golden.animation, diff.animation);
+  EXPECT_EQ(golden.duration, diff.duration);
+  EXPECT_EQ(golden.structure, diff.structure);
 }
 
 TEST_F(StageSettings, Goal07NoPropertyIsLeftOut) {

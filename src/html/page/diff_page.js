@@ -18,10 +18,7 @@ function diff_overview(diff) {
 const error_text = (share) => `${short_number(100 * share)} %`;
 
 function findings_section(diff) {
-  const columns = [['', (f) => make('span', { class: `tag ${f.is_over ? 'bad' : 'good'}` }, f.is_over ? 'over' : 'same')],
-    ['Group', (f) => f.group], ['What', (f) => f.name], ['Measured', (f) => f.text]];
-  const sorted = [...diff.findings].sort((x, y) => Number(y.is_over) - Number(x.is_over));
-  return section('findings', 'Findings', table(columns, sorted));
+  return section('findings', 'Findings', findings_table(diff.findings));
 }
 
 function diff_clips_section(diff, play) {

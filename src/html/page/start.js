@@ -34,8 +34,9 @@ function start_build_page(page) {
   let parts = null;
   const clips = clips_section(data.report, (clip, time) => show_clip(parts, clip, time));
   page.append(...[overview(data.report, data.timings), make('div', { id: 'viewer_place' }),
-    clips.element, junctions_section(data.report), pictures_section(json_data('pictures')), issues_section(data.report),
-    ledger_section(data.report), timeline_section(data.timings), files_section(data.report)].filter(Boolean));
+    golden_section(data.report), clips.element, junctions_section(data.report), pictures_section(json_data('pictures')),
+    issues_section(data.report), ledger_section(data.report), timeline_section(data.timings),
+    files_section(data.report)].filter(Boolean));
   start_viewer((module) => open_build_viewer(module, data, clips.rows)).then((opened) => { parts = opened; });
 }
 
