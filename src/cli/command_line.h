@@ -18,6 +18,8 @@ enum class Verb {
   Plan,
   Explain,
   Expand,
+  Migrate,
+  Report,
   Inspect,
   Diff,
   Verify,
@@ -99,6 +101,7 @@ struct CommandLine {
   double max_size_gb = 0;             ///< cache gc; 0: any
   Limits limits;                      ///< --limit
   bool preview = false;               ///< build: parts side by side, at once
+  bool only_check = false;            ///< migrate: write nothing
   bool accept = false;                ///< build: the result becomes the golden
   std::string events;                 ///< build: file for what happens; empty: none
   bool strict = false;                ///< validate: warnings count, too

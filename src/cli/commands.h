@@ -16,6 +16,8 @@ ExitCode check_command(const CommandLine& line, Console& console);
 ExitCode plan_command(const CommandLine& line, Console& console);
 ExitCode explain_command(const CommandLine& line, Console& console);
 ExitCode expand_command(const CommandLine& line, Console& console);
+ExitCode migrate_command(const CommandLine& line, Console& console);
+ExitCode report_command(const CommandLine& line, Console& console);
 ExitCode inspect_command(const CommandLine& line, Console& console);
 ExitCode diff_command(const CommandLine& line, Console& console);
 ExitCode verify_command(const CommandLine& line, Console& console);

@@ -12,7 +12,7 @@ const std::map<std::string, std::string>& topics() {
   2    a mistake on the command line or in a recipe
   3    an input is missing or corrupt
   4    a result is not what was meant: validation, "expect", a damaged cache, a file that was edited
-  5    two models differ (diff), a result is unlike its golden (build)
+  5    two models differ (diff), a result is unlike its golden (build), an older recipe would change (migrate --check)
   6    some recipes failed, the others are made (build --keep-going)
   7    results differ from run to run
   70   internal error: please report it
@@ -45,6 +45,7 @@ const std::map<std::string, std::string>& topics() {
   JSON, JSON with comments or YAML. `skinforge schema` prints every key with its unit, range and default; with
   "$schema" an editor completes and checks by it. `extends`, `include`, `vars` and `matrix` build recipes of recipes;
   `skinforge expand` shows what they come to. `skinforge inspect FILE` shows the joints and clips of a model.
+  `skinforge migrate FILE` brings an older recipe to the present version; comments and layout stay.
 )"},
                                                              {"ci", R"(In a nightly CI
   skinforge build recipes/ --keep-going --junit junit.xml --sarif skinforge.sarif --summary summary.md

@@ -75,6 +75,21 @@ void VerbTree::add_recipe_verbs() {
                Verb::Expand);
   add_recipes(expand);
 
+  CLI::App* migrate =
+      add_verb(&app, "migrate", "Rewrite recipes of older versions, and say what changed", Verb::Migrate);
+  migrate->add_option("RECIPE", line.recipes, "Recipe files")->required()->type_name("");
+  migrate->add_flag("--check", line.only_check, "Write nothing; status 5 when something would change");
+
+  CLI::App* again =
+      add_verb(&app, "report", "Write the report of a build again, from what is in the cache", Verb::Report);
+  add_recipe(again);
+  again->add_option("-o,--out", line.out, "Output folder")
+      ->type_name("DIR")
+      ->default_str("out/<name>")
+      ->group("Output");
+  add_report_option(again);
+  add_work_options(again);
+
   CLI::App* explain =
       add_verb(&app, "explain", "Say what changed since an earlier run, down to the line of the recipe",
                Verb::Explain);

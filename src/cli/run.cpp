@@ -51,6 +51,8 @@ Command command_of(Verb verb) {
                                                     {Verb::Plan, plan_command},
                                                     {Verb::Explain, explain_command},
                                                     {Verb::Expand, expand_command},
+                                                    {Verb::Migrate, migrate_command},
+                                                    {Verb::Report, report_command},
                                                     {Verb::Inspect, inspect_command},
                                                     {Verb::Diff, diff_command},
                                                     {Verb::Verify, verify_command},

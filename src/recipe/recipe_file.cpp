@@ -17,7 +17,9 @@ std::string extension_of(const fs::path& path) {
   return extension;
 }
 
-std::string read_text(const fs::path& path) {
+}  // namespace
+
+std::string read_recipe_text(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) throw Error(ExitCode::BadInput, path.string() + ": no such file");
   if (!fs::is_regular_file(path, error))
@@ -31,6 +33,7 @@ std::string read_text(const fs::path& path) {
   return text;
 }
 
+namespace {
 void set_file(Value& value, const std::shared_ptr<const std::string>& file) {
   value.file = file;
   for (Value& item : value.items) set_file(item, file);
@@ -51,7 +54,7 @@ Value parse_value_text(const std::string& text, const fs::path& path) {
 }
 
 Value read_value_file(const fs::path& path) {
-  return parse_value_text(read_text(path), path);
+  return parse_value_text(read_recipe_text(path), path);
 }
 
 }  // namespace skinforge

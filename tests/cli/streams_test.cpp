@@ -66,6 +66,8 @@ TEST_F(Streams, Goal16EveryVerbSpeaksJson) {
                                                        {"graph", "only.json"},
                                                        {"stage", "list", "only.json"},
                                                        {"stage", "run", "only.json", "import a"},
+                                                       {"report", "only.json", "--report", "json"},
+                                                       {"migrate", "only.json"},
                                                        {"bind", "human.glb", "--out", "bound"},
                                                        {"deform", "human.glb", "--frames", "2"},
                                                        {"compare-skinning", "human.glb", "--frames", "2"},
