@@ -26,7 +26,7 @@ TEST(ReportJson, KeysStandInTheDeclaredOrder) {
   const auto json = nlohmann::ordered_json::parse(to_json(sample_report()));
   EXPECT_THAT(keys(json), ElementsAre("report_version", "preview", "tool", "recipe", "inputs", "operations",
                                       "mesh", "weights", "junctions", "clips", "ledger", "joints",
-                                      "joint_maps", "outputs", "issues"));
+                                      "joint_maps", "outputs", "golden", "issues"));
   EXPECT_THAT(keys(json["outputs"][0]), ElementsAre("name", "bytes", "sha256"));
 }
 
