@@ -66,9 +66,10 @@ bool passes(const Track<Value>& track, std::size_t from, std::size_t to, double 
 }
 
 // From each key as far as it goes. In a loop the keys beside its ends stay, too: what passes the seam has the
-// speed there that it had, while inside a clip a longer step may take its mean.
-template <class Segment, class Value>
-Track<Value> thinned(const Track<Value>& track, double tolerance, bool is_loop) {
+// speed there that it had, while inside a clip a longer step may take its mean. `show(k, value)`: what is
+// seen at each key of the track now.
+template <class Segment, class Value, class Show>
+Track<Value> thinned(const Track<Value>& track, double tolerance, bool is_loop, const Show& show) {
   if (track.times.size() < 3) return track;
   const std::size_t last = track.times.size() - 1;
   const auto stays = [&](std::size_t k) { return is_loop && (k == 1 || k == last - 1); };
@@ -79,6 +80,9 @@ Track<Value> thinned(const Track<Value>& track, double tolerance, bool is_loop) 
       ++to;
     kept.times.push_back(track.times[to]);
     kept.values.push_back(track.values[to]);
+    const Segment segment(track.values[from], track.values[to], to - from);
+    for (std::size_t k = from + 1; k < to; ++k) show(k, segment.at(k - from));
+    show(to, track.values[to]);
     from = to;
   }
   return kept;
@@ -129,9 +133,10 @@ double PosedSkin::largest_move(const std::vector<Pose>& poses) const {
       const bool is_below = parent.is_valid() && moves_[parent.index()];
       are[j] = poses[t][j].matrix();
       if (parent.is_valid()) are[j] = (is_below ? are.data() : were)[parent.index()] * are[j];
-      const double center = (are[j].translation() - were[j].translation()).norm();
-      const double around = ((are[j].linear() - were[j].linear()) * axes_[j]).norm();
-      largest = std::max(largest, center + around);
+      const double center2 = (are[j].translation() - were[j].translation()).squaredNorm();
+      const double around2 = ((are[j].linear() - were[j].linear()) * axes_[j]).squaredNorm();
+      if (2 * (center2 + around2) <= largest * largest) continue;  // no less than the square of their sum
+      largest = std::max(largest, std::sqrt(center2) + std::sqrt(around2));
     }
   }
   return largest;
@@ -158,11 +163,35 @@ double scale_of_parent(const Skeleton& skeleton, JointId joint) {
   return 1 / std::cbrt(std::abs(skeleton[parent].joint_from_model.linear().determinant()));
 }
 
+// Tracks with a key at each time need no interpolation.
+template <class Value>
+void sample_into(const Track<Value>& track, std::span<const double> times, std::size_t joint,
+                 Value Transform::*part, std::vector<Pose>& poses) {
+  if (track.is_empty()) return;
+  const bool is_keyed = track.interpolation == Interpolation::Linear &&
+                        std::equal(times.begin(), times.end(), track.times.begin(), track.times.end());
+  for (std::size_t t = 0; t < times.size(); ++t)
+    poses[t][joint].*part = is_keyed ? track.values[t] : sample(track, times[t]);
+}
+
 void sample_into(const JointTracks& tracks, std::span<const double> times, std::vector<Pose>& poses) {
-  for (std::size_t t = 0; t < times.size(); ++t) {
-    Transform& local = poses[t][tracks.joint.index()];
-    local = sample(tracks, times[t], local);
-  }
+  const std::size_t j = tracks.joint.index();
+  sample_into(tracks.translation, times, j, &Transform::translation, poses);
+  sample_into(tracks.rotation, times, j, &Transform::rotation, poses);
+  sample_into(tracks.scale, times, j, &Transform::scale, poses);
+}
+
+// The tracks of one joint with fewer keys; `poses` show them. A completed track has a key at every time, or
+// one.
+JointTracks thinned(const JointTracks& tracks, double shift, double turn, bool is_loop,
+                    std::vector<Pose>& poses) {
+  const std::size_t j = tracks.joint.index();
+  const auto show = [&](auto part) {
+    return [&poses, part, j](std::size_t k, const auto& value) { poses[k][j].*part = value; };
+  };
+  return {tracks.joint, thinned<Line>(tracks.translation, shift, is_loop, show(&Transform::translation)),
+          thinned<Between>(tracks.rotation, turn, is_loop, show(&Transform::rotation)),
+          thinned<Line>(tracks.scale, turn, is_loop, show(&Transform::scale))};
 }
 
 }  // namespace
@@ -182,11 +211,7 @@ void reduce_keys(Clip& clip, const Skeleton& skeleton, const std::vector<bool>& 
       if (!is_reducible[tracks.joint.index()]) continue;
       const double reach = std::max(reaches[tracks.joint.index()], tolerance), moves = share * tolerance;
       reduced.push_back(
-          {tracks.joint,
-           thinned<Line>(tracks.translation, moves / scale_of_parent(skeleton, tracks.joint), is_loop),
-           thinned<Between>(tracks.rotation, moves / reach, is_loop),
-           thinned<Line>(tracks.scale, moves / reach, is_loop)});
-      sample_into(reduced.back(), times, poses);
+          thinned(tracks, moves / scale_of_parent(skeleton, tracks.joint), moves / reach, is_loop, poses));
     }
     const double moved = skin.largest_move(poses);
     if (moved <= tolerance) {
