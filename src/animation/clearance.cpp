@@ -1,207 +1,113 @@
 #include "animation/clearance.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "skeleton/pose.h"
+#include "animation/lanes.h"
 
 namespace skinforge {
 namespace {
 
-constexpr double kInside = 0.8;          // ours: of the mean distance of skin from its axis
-constexpr std::size_t kMostBalls = 4;    // ours: along one joint
-constexpr std::size_t kFewVertices = 4;  // less are no limb
-constexpr float kFarAway = 1e15F;        // its square is still a float
+constexpr std::size_t kBlock = Lanes::kCount;
+constexpr std::size_t kStretch = 4 * kBlock;  // frames whose places are looked at only where they may be near
 
-// The vertices that each joint moves most, in the joint's frame.
-std::vector<std::vector<Vec3>> vertices_by_joint(const Character& input) {
-  std::vector<std::vector<Vec3>> vertices(input.skeleton.size());
-  for (std::size_t v = 0; v < input.weights.vertex_count(); ++v) {
-    const auto row = input.weights.of(VertexId(v));
-    if (row.empty()) continue;
-    const auto most = std::max_element(
-        row.begin(), row.end(), [](const Influence& a, const Influence& b) { return a.weight < b.weight; });
-    vertices[most->joint.index()].push_back(input.skeleton[most->joint].joint_from_model *
-                                            input.mesh.positions[v]);
+Eigen::AlignedBox3f box_of(const BallTrack& track, std::size_t first, std::size_t count) {
+  Eigen::AlignedBox3f box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<Eigen::Index>(axis);
+    const auto places =
+        track.places[axis].segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
+    box.min()[a] = places.minCoeff();
+    box.max()[a] = places.maxCoeff();
   }
-  return vertices;
+  return box;
 }
 
-double scale_of(const Affine3& transform) {
-  return std::cbrt(std::abs(transform.linear().determinant()));
-}
-
-void add_balls(JointId joint, const std::vector<Vec3>& points, double model_scale,
-               std::vector<SkinBall>& balls) {
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
-  Mat3 spread = Mat3::Zero();
-  for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
-  const Vec3 axis = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors().col(2);
-  double low = 0, high = 0, thickness = 0;
-  for (const Vec3& p : points) {
-    const double along = axis.dot(p - mean);
-    low = std::min(low, along);
-    high = std::max(high, along);
-    thickness += (p - mean - along * axis).norm() / static_cast<double>(points.size());
+// Squared distances of a ball from `count` places, a whole number of blocks; whether any is below `limit`.
+SKINFORGE_VECTOR_CLONES bool any_within(const float* x, const float* y, const float* z, const float* ball,
+                                        float limit, std::size_t count, float* squared) {
+  int any = 0;
+  for (std::size_t c = 0; c < count; c += kBlock) {
+    const Lanes dx = Lanes::load(x + c) + -ball[0], dy = Lanes::load(y + c) + -ball[1],
+                dz = Lanes::load(z + c) + -ball[2];
+    const Lanes sum{dx.v * dx.v + dy.v * dy.v + dz.v * dz.v};
+    sum.store(squared + c);
+    const auto below = sum.v < limit;
+    for (std::size_t k = 0; k < kBlock; ++k) any |= below[k];
   }
-  const double radius = kInside * thickness;
-  if (radius <= 0) return;
-  const auto count =
-      static_cast<std::size_t>(std::clamp((high - low) / (2 * radius), 1.0, static_cast<double>(kMostBalls)));
-  for (std::size_t k = 0; k < count; ++k) {
-    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-    balls.push_back({joint, mean + (low + share * (high - low)) * axis, radius * model_scale});
-  }
+  return any != 0;
 }
 
 }  // namespace
 
-std::vector<SkinBall> skin_balls(const Character& input, std::span<const JointId> kept) {
-  const auto vertices = vertices_by_joint(input);
-  std::vector<SkinBall> balls;
-  for (const JointId j : kept)
-    if (vertices[j.index()].size() >= kFewVertices)
-      add_balls(j, vertices[j.index()], 1 / scale_of(input.skeleton[j].joint_from_model), balls);
-  return balls;
-}
-
-std::vector<float> ball_centers(const Skeleton& skeleton, const MotionSet& set) {
-  std::vector<float> centers;
-  centers.reserve(3 * set.poses.size() * set.balls.size());
-  for (const Pose& pose : set.poses) {
-    const std::vector<Affine3> joints = model_from_joint(skeleton, pose);
-    for (const SkinBall& ball : set.balls) {
-      const Eigen::Vector3f center = (joints[ball.joint.index()] * ball.center).cast<float>();
-      centers.insert(centers.end(), center.data(), center.data() + 3);
-    }
-  }
-  return centers;
-}
-
-// One side of a seam: the balls of a source, and how they come into the frame of the joint it meets at.
-struct Clearance::Side {
-  const Character* input = nullptr;
-  const MotionSet* set = nullptr;
-  JointId anchor;  // of the input: balls are taken relative to it; invalid: to the model
-  Affine3 from_anchor = Affine3::Identity();  // into the frame where both sides meet
-  double scale = 1;                           // of radii
-
-  Affine3 from_model(const Pose& pose) const {
-    return anchor.is_valid()
-               ? Affine3(from_anchor * model_from_joint(input->skeleton, pose, anchor).inverse())
-               : from_anchor;
-  }
-
-  std::vector<Vec3> bind_places() const {
-    const Pose pose = bind_pose(input->skeleton);
-    const std::vector<Affine3> joints = model_from_joint(input->skeleton, pose);
-    const Affine3 placed = from_model(pose);
-    std::vector<Vec3> centers;
-    for (const SkinBall& ball : set->balls)
-      centers.push_back(placed * (joints[ball.joint.index()] * ball.center));
-    return centers;
-  }
-
-  // One track per ball, one place per frame; those not asked for stay far from everything.
-  std::vector<Track> tracks(std::size_t first, std::size_t count, const std::vector<bool>* allowed) const {
-    std::vector<Track> tracks(set->balls.size());
-    for (Track& track : tracks)
-      track.places = Eigen::ArrayX3f::Constant(static_cast<Eigen::Index>(count), 3, kFarAway);
-    for (std::size_t f = 0; f < count; ++f) {
-      if (allowed && !(*allowed)[f]) continue;
-      const Eigen::Affine3f placed = Eigen::Affine3d(from_model(set->poses[first + f])).cast<float>();
-      const float* center = set->ball_centers.data() + 3 * (first + f) * tracks.size();
-      for (std::size_t b = 0; b < tracks.size(); ++b, center += 3) {
-        const Eigen::Vector3f place = placed * Eigen::Vector3f(center[0], center[1], center[2]);
-        tracks[b].places.row(static_cast<Eigen::Index>(f)) = place.transpose().array();
-        tracks[b].reach.extend(place);
-      }
-    }
-    return tracks;
-  }
-};
-
 // Pairs of balls that some row and some candidate might bring together: closer than in the bind pose by what
 // they may overlap there.
-Clearance::Seam Clearance::make_seam(const Side& driver, const Side& part, double unit, const Scope& scope) {
-  Seam seam{driver.tracks(scope.first, scope.count, nullptr),
-            part.tracks(0, scope.allowed.size(), &scope.allowed),
-            {},
-            static_cast<float>(unit)};
-  const std::vector<Vec3> driver_bind = driver.bind_places(), part_bind = part.bind_places();
-  for (std::size_t a = 0; a < driver_bind.size(); ++a)
-    for (std::size_t b = 0; b < part_bind.size(); ++b) {
-      const double sum = driver.scale * driver.set->balls[a].radius + part.scale * part.set->balls[b].radius;
-      const auto touch = static_cast<float>(std::min(sum, (driver_bind[a] - part_bind[b]).norm()));
-      if (seam.driver[a].reach.exteriorDistance(seam.part[b].reach) < touch)
-        seam.pairs.push_back({a, b, touch});
+Clearance::Clearance(std::span<const Seam> seams, std::size_t first, std::size_t count) {
+  for (const Seam& seam : seams) {
+    const std::size_t frames = seam.part.set->poses.size();
+    Side side{
+        seam.driver.tracks(first, count), seam.part.tracks(0, frames), {}, {}, static_cast<float>(seam.unit)};
+    Reaches driver_reach, part_reach;
+    for (const BallTrack& track : side.driver) driver_reach.push_back(box_of(track, 0, count));
+    for (const BallTrack& track : side.part) {
+      Reaches& reaches = side.reaches.emplace_back();
+      part_reach.emplace_back();
+      for (std::size_t f = 0; f < frames; f += kStretch) {
+        reaches.push_back(box_of(track, f, std::min(kStretch, frames - f)));
+        part_reach.back().extend(reaches.back());
+      }
     }
-  return seam;
-}
-
-Clearance::Clearance(std::span<const Character* const> characters, const Graft& graft,
-                     std::span<const MotionSet* const> motions, const DrivingClip& driver,
-                     const PartToComplete& part, const Scope& scope)
-    : candidates_(static_cast<Eigen::Index>(scope.allowed.size())) {
-  const auto is_in = [](const std::vector<SourceId>& sources, SourceId s) {
-    return std::find(sources.begin(), sources.end(), s) != sources.end();
-  };
-  const GraftSource& base = graft.sources.front();
-  const double diagonal = base.model_from_input.scale * characters[base.input]->mesh.diagonal();
-  for (const GraftSite& site : graft.sites) {
-    if (!site.donor.is_valid() || !site.fused.is_valid() || diagonal <= 0) continue;
-    const JointId meeting = graft.skeleton[site.fused].parent;
-    if (!meeting.is_valid()) continue;
-    const JointOrigin &above = graft.origins[meeting.index()], &top = graft.origins[site.fused.index()];
-    const bool drives_above = is_in(driver.sources, above.source) && is_in(part.sources, site.donor);
-    const bool drives_below = is_in(driver.sources, site.donor) && is_in(part.sources, above.source);
-    if (!drives_above && !drives_below) continue;
-    const GraftSource &host_source = graft.sources[above.source.index()],
-                      &donor_source = graft.sources[site.donor.index()];
-    const Character &host = *characters[host_source.input], &donor = *characters[donor_source.input];
-    const double scale_above =
-        1 / scale_of(host.skeleton[above.joint].joint_from_model);  // of the meeting joint
-    const double host_scale = host_source.model_from_input.scale;
-    const Side upper{&host, motions[above.source.index()], above.joint, Affine3::Identity(), 1 / scale_above};
-    const Side lower{&donor, motions[site.donor.index()], donor.skeleton[top.joint].parent,
-                     Affine3(top.change.matrix()),
-                     donor_source.model_from_input.scale / (host_scale * scale_above)};
-    const double unit = host_scale * scale_above / diagonal;
-    seams_.push_back(drives_above ? make_seam(upper, lower, unit, scope)
-                                  : make_seam(lower, upper, unit, scope));
+    for (std::size_t a = 0; a < side.driver.size(); ++a)
+      for (std::size_t b = 0; b < side.part.size(); ++b) {
+        const float apart = driver_reach[a].exteriorDistance(part_reach[b]);
+        if (apart >= static_cast<float>(seam.radii(a, b))) continue;  // most
+        const auto touch = static_cast<float>(seam.touching(a, b));
+        if (apart < touch) side.pairs.push_back({a, b, touch});
+      }
+    sides_.push_back(std::move(side));
   }
 }
 
 double Clearance::depth(std::size_t row, std::size_t candidate) const {
-  const auto r = static_cast<Eigen::Index>(row), c = static_cast<Eigen::Index>(candidate);
   float deepest = 0;
-  for (const Seam& seam : seams_)
-    for (const Pair& pair : seam.pairs) {
-      const float distance2 = (seam.driver[pair.driver].places.row(r) - seam.part[pair.part].places.row(c))
-                                  .matrix()
-                                  .squaredNorm();
+  for (const Side& side : sides_)
+    for (const Pair& pair : side.pairs) {
+      const float distance2 =
+          (side.driver[pair.driver].at(row) - side.part[pair.part].at(candidate)).squaredNorm();
       if (distance2 < pair.touch * pair.touch)
-        deepest = std::max(deepest, seam.unit * (pair.touch - std::sqrt(distance2)));
+        deepest = std::max(deepest, side.unit * (pair.touch - std::sqrt(distance2)));
     }
   return static_cast<double>(deepest);
 }
 
-Eigen::ArrayXf Clearance::depths(std::size_t row) const {
-  Eigen::ArrayXf deepest = Eigen::ArrayXf::Zero(candidates_);
-  for (const Seam& seam : seams_)
-    for (const Pair& pair : seam.pairs) {
-      const Eigen::Vector3f ball = seam.driver[pair.driver].places.row(static_cast<Eigen::Index>(row));
-      const Track& track = seam.part[pair.part];
-      if (track.reach.exteriorDistance(ball) >= pair.touch) continue;
-      const auto& p = track.places;
-      deepest = deepest.max(seam.unit *
-                            (pair.touch - ((p.col(0) - ball.x()).square() + (p.col(1) - ball.y()).square() +
-                                           (p.col(2) - ball.z()).square())
-                                              .sqrt()));
+void Clearance::deepen(const Side& side, const Pair& pair, std::size_t row, std::vector<float>& deepest) {
+  const Eigen::Vector3f ball = side.driver[pair.driver].at(row);
+  const BallTrack& track = side.part[pair.part];
+  const Reaches& reaches = side.reaches[pair.part];
+  const float limit = pair.touch * pair.touch;
+  std::array<float, kStretch> squared = {};
+  for (std::size_t s = 0; s < reaches.size(); ++s) {
+    if (reaches[s].squaredExteriorDistance(ball) >= limit) continue;
+    const std::size_t first = s * kStretch, count = std::min(kStretch, deepest.size() - first);
+    const std::size_t whole = count / kBlock * kBlock;
+    bool is_near =
+        whole > 0 && any_within(track.places[0].data() + first, track.places[1].data() + first,
+                                track.places[2].data() + first, ball.data(), limit, whole, squared.data());
+    for (std::size_t c = whole; c < count; ++c) {
+      squared[c] = (track.at(first + c) - ball).squaredNorm();
+      is_near = is_near || squared[c] < limit;
     }
-  return deepest;
+    for (std::size_t c = 0; is_near && c < count; ++c)
+      if (squared[c] < limit)
+        deepest[first + c] = std::max(deepest[first + c], side.unit * (pair.touch - std::sqrt(squared[c])));
+  }
+}
+
+Eigen::ArrayXf Clearance::depths(std::size_t row, std::size_t candidates) const {
+  std::vector<float> deepest(candidates, 0.0F);
+  for (const Side& side : sides_)
+    for (const Pair& pair : side.pairs) deepen(side, pair, row, deepest);
+  return Eigen::Map<const Eigen::ArrayXf>(deepest.data(), static_cast<Eigen::Index>(candidates));
 }
 
 }  // namespace skinforge

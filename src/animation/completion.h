@@ -43,12 +43,14 @@ struct CompletionOptions {
   /// Share of a step by which limbs that the body has twice follow each other, 0 = alike; by default 1 / (how
   /// many there are of a kind).
   std::optional<double> limb_phase;
+  double clearing = radians(40);  ///< that limbs of a completed part may be turned out of the driving part
   double key_tolerance = 1e-4;    ///< what leaving out keys may move, of the base's diagonal
   std::vector<ClipChoice> clips;  ///< per input; empty: anything goes
 
   template <class Archive>
   friend void fields(Archive& a, CompletionOptions& o) {
-    a(o.complete, o.choice, o.key_rate_hz, o.tempo, o.loop, o.limb_phase, o.key_tolerance, o.clips);
+    a(o.complete, o.choice, o.key_rate_hz, o.tempo, o.loop, o.limb_phase, o.clearing, o.key_tolerance,
+      o.clips);
   }
 };
 
@@ -74,6 +76,18 @@ struct SkinBall {
   template <class Archive>
   friend void fields(Archive& a, SkinBall& b) {
     a(b.joint, b.center, b.radius);
+  }
+};
+
+/// Where the balls of a source are at a site where it meets another source.
+struct SeamBalls {
+  std::size_t site = 0;       ///< of the graft
+  std::vector<Vec3> bind;     ///< #balls, in the bind pose, in the frame of the joint where the sources meet
+  std::vector<float> places;  ///< #balls x 3 x #frames, in the same frame
+
+  template <class Archive>
+  friend void fields(Archive& a, SeamBalls& b) {
+    a(b.site, b.bind, b.places);
   }
 };
 
@@ -103,15 +117,15 @@ struct MotionSet {
   std::vector<double>
       skin_radius;  ///< #input joints, metres in the input: within it lies the joint's skin, or
                     ///< what may hang on a joint without skin (a twentieth of the diagonal)
-  std::vector<JointRange> ranges;   ///< #input joints
-  std::vector<Foot> feet;           ///< of the input
-  std::vector<SkinBall> balls;      ///< in the skin of the joints that this source brings to the result
-  std::vector<float> ball_centers;  ///< #frames x #balls x 3, in the model space of the input
+  std::vector<JointRange> ranges;  ///< #input joints
+  std::vector<Foot> feet;          ///< of the input
+  std::vector<SkinBall> balls;     ///< in the skin of the joints that this source brings to the result
+  std::vector<SeamBalls> seams;    ///< one per site where this source meets another
 
   template <class Archive>
   friend void fields(Archive& a, MotionSet& m) {
     a(m.clip_begin, m.frame_time, m.poses, m.rotations, m.confidence, m.activity, m.is_cyclic, m.is_moving,
-      m.fastest_turn, m.skin_radius, m.ranges, m.feet, m.balls, m.ball_centers);
+      m.fastest_turn, m.skin_radius, m.ranges, m.feet, m.balls, m.seams);
   }
 };
 
@@ -131,6 +145,15 @@ struct CompletionRecord {
       a(c.source, c.time, c.clip, c.clip_time);
     }
   };
+  struct Turn {
+    std::string joint;  ///< of the result
+    double angle = 0;   ///< radians
+    template <class Archive>
+    friend void fields(Archive& a, Turn& t) {
+      a(t.joint, t.angle);
+    }
+  };
+  std::vector<Turn> turns;      ///< of limbs, for the whole clip, so that they don't cut the driving part
   std::vector<Choice> choices;  ///< per completed source, one per resampled frame
   double mean_distance = 0;     ///< mean keyframe distance of the choices, 0 = alike
   std::int64_t cutting_frames =
@@ -143,8 +166,8 @@ struct CompletionRecord {
 
   template <class Archive>
   friend void fields(Archive& a, CompletionRecord& r) {
-    a(r.clip, r.input, r.source_clip, r.duration, r.choices, r.mean_distance, r.cutting_frames, r.jumps,
-      r.is_loop, r.fastest_turn, r.fastest_source_turn, r.fastest_joint);
+    a(r.clip, r.input, r.source_clip, r.duration, r.turns, r.choices, r.mean_distance, r.cutting_frames,
+      r.jumps, r.is_loop, r.fastest_turn, r.fastest_source_turn, r.fastest_joint);
   }
 };
 

@@ -157,7 +157,7 @@ std::int64_t add_cutting_costs(const Clearance& clearance, const KeyframePath& p
     ++found;
     const auto row = costs.row(f);
     Eigen::Map<Eigen::ArrayXf>(row.data(), static_cast<Eigen::Index>(row.size())) +=
-        (kCuttingCost * clearance.depths(f)).min(kMostForCutting);
+        (kCuttingCost * clearance.depths(f, row.size())).min(kMostForCutting);
   }
   return found;
 }
@@ -204,7 +204,8 @@ ChosenKeyframes choose_keyframes(std::span<const Character* const> characters, c
           path_costs(options));
     };
     chosen.path = search();
-    const Clearance clearance(characters, graft, motions, driver, part, {frames.first, frames.rows, allowed});
+    const Clearance clearance(seams_between(characters, graft, motions, driver, part), frames.first,
+                              frames.rows);
     std::vector<bool> is_done(frames.rows, false);
     for (int round = 0; round < kCuttingRounds; ++round) {
       const std::int64_t found = add_cutting_costs(clearance, chosen.path, is_done, costs);

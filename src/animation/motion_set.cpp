@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "animation/clearance.h"
 #include "animation/completion.h"
 #include "animation/feet.h"
 #include "animation/key_rate.h"
@@ -11,6 +10,7 @@
 #include "animation/resampling.h"
 #include "animation/sampling.h"
 #include "animation/shift_scale.h"
+#include "animation/skin_balls.h"
 #include "base/expect.h"
 
 namespace skinforge {
@@ -256,7 +256,7 @@ MotionSet build_motion_set(const Character& input, const Graft& graft, SourceId 
   set.feet = find_feet(input, set);
   set.ranges = joint_ranges(set.poses, input.skeleton);
   set.balls = skin_balls(input, kept_joints(placed));
-  set.ball_centers = ball_centers(input.skeleton, set);
+  set.seams = seam_balls(input, graft, source, set);
   measure_activity(kSearchRate, set);
   const std::vector<Quat> bind = global_rotations(input.skeleton, bind_pose(input.skeleton));
   std::vector<std::vector<Quat>> rotations;

@@ -13,7 +13,7 @@ class Motion final : public Stage {
   StageInfo info() const override {
     return {.name = "motion",
             .instance = std::to_string(source_),
-            .version = 3,
+            .version = 4,
             .reads = {names_.character(input_), names_.graft(), names_.joint_maps()},
             .writes = {names_.motion(source_)}};
   }
@@ -44,7 +44,7 @@ class CompleteClip final : public Stage {
   StageInfo info() const override {
     StageInfo info{.name = "complete_clip",
                    .instance = request_.name,
-                   .version = 3,
+                   .version = 4,
                    .reads = joined(character_names(names_, inputs_), {names_.graft()}),
                    .writes = {names_.clip(request_.name)}};
     for (std::size_t s = 0; s < source_count_; ++s) info.reads.push_back(names_.motion(s));
