@@ -28,7 +28,7 @@ WHOLE = {
     ],
     "surface": SURFACE,
     "animation": {"clips": ["Walk", "Run"], "complete": True, "method": "sequence", "rate_hz": 30, "tempo": [0.8, 1.2],
-                  "limb_phase": 0.5, "key_tolerance": 0.01,
+                  "limb_phase": 0.5, "limb_clearing_deg": 30, "key_tolerance": 0.01,
                   "per_clip": {"Walk": {"complete": False, "method": "paper", "rate_hz": 60, "tempo": [0.9, 1], "limb_phase": 0,
                                         "loop": True, "use": ["Run"]}}},
     "correctives": {"method": "dqs", "targets": 4, "enough": 0.5},

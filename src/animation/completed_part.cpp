@@ -27,6 +27,18 @@ bool belongs_to(const PartToComplete& part, std::size_t input, const LimbRank& r
          (rank.family == part.rank.family ? rank.rank == part.rank.rank : part.steps_behind == 0);
 }
 
+// Per row the frame of its set that the part shows then; blends and fractions of frames are left out.
+std::vector<std::size_t> shown_frames(const KeyframePath& path, const DriverFrames& frames, double delay) {
+  std::vector<std::size_t> shown;
+  const auto rows = static_cast<double>(frames.rows), last = static_cast<double>(frames.grid.count - 1);
+  for (std::size_t f = 0; f < frames.rows; ++f) {
+    double row = std::round(delayed_frame(static_cast<double>(f), delay, last, frames.is_loop));
+    row = frames.is_loop ? row - rows * std::floor(row / rows) : std::clamp(row, 0.0, rows - 1);
+    shown.push_back(static_cast<std::size_t>(path.candidates[static_cast<std::size_t>(row)]));
+  }
+  return shown;
+}
+
 }  // namespace
 
 Casting cast_sources(std::span<const Character* const> characters, const Graft& graft, std::size_t input,
@@ -74,9 +86,18 @@ CompletedPart complete_part(std::span<const Character* const> characters, const 
   PartMotion motion{&player,          play(chosen.path, set, frames.is_loop, half_fade),
                     frames.is_loop,   0,
                     frames.grid,      keys,
-                    set.fastest_turn, is_paper};
+                    set.fastest_turn, {},
+                    is_paper};
   if (part.steps_behind != 0)
     motion.delay = part.steps_behind * step_frames(driving_set, driver.clip, frames.is_loop);
+  if (!is_paper)
+    motion.turns =
+        clear_limbs(characters, graft, seams_between(characters, graft, motions, driver, part),
+                    {frames.first, shown_frames(chosen.path, frames, motion.delay)}, options.clearing);
+  for (const LimbTurn& turn : motion.turns)
+    completed.turns.push_back(
+        {graft.skeleton[graft.sources[turn.source.index()].result_joint[turn.joint.index()]].name,
+         turn.turn.angularDistance(Quat::Identity())});
   for (const SourceId source : part.sources) {
     std::vector<JointTracks> tracks = part_tracks(graft, source, motion);
     std::move(tracks.begin(), tracks.end(), std::back_inserter(completed.joints));

@@ -42,6 +42,7 @@ struct CompletedPart {
   double mean_distance = 0;
   std::int64_t cutting_frames = 0;
   std::int64_t jumps = 0;
+  std::vector<CompletionRecord::Turn> turns;
 };
 
 /// Chooses keyframes for `part` and turns them into tracks with keys on `keys` (completion.md, steps 3 to 8).

@@ -95,6 +95,7 @@ void complete_other_parts(std::span<const Character* const> characters, const Gr
     for (const JointTracks& tracks : completed.joints) is_completed[tracks.joint.index()] = true;
     std::move(completed.joints.begin(), completed.joints.end(), std::back_inserter(result.clip.joints));
     std::move(completed.choices.begin(), completed.choices.end(), std::back_inserter(result.record.choices));
+    result.record.turns.insert(result.record.turns.end(), completed.turns.begin(), completed.turns.end());
     result.record.mean_distance += completed.mean_distance / static_cast<double>(casting.parts.size());
     result.record.jumps += completed.jumps;
     result.record.cutting_frames += completed.cutting_frames;

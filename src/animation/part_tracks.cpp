@@ -69,12 +69,17 @@ void smooth_rotations(std::vector<Quat>& rotations, bool is_loop) {
                             old[k + 1 < n ? k + 1 : (is_loop ? 0 : n - 1)]);
 }
 
-// How much the turn from key to key changes at a key of a loop.
+// How much the turn from key to key changes at a key of a loop: the tangent of half that angle, squared.
 double kink_at(const std::vector<Quat>& rotations, std::size_t k) {
   const std::size_t n = rotations.size();
   const Quat& here = rotations[k];
-  return (rotations[(k + n - 1) % n].conjugate() * here)
-      .angularDistance(here.conjugate() * rotations[(k + 1) % n]);
+  const Quat change = (rotations[k > 0 ? k - 1 : n - 1].conjugate() * here).conjugate() *
+                      (here.conjugate() * rotations[k + 1 < n ? k + 1 : 0]);
+  return change.vec().squaredNorm() / (change.w() * change.w());
+}
+
+double angle_of_kink(double kink) {
+  return 2 * std::atan(std::sqrt(kink));
 }
 
 // Where a loop closes, its clip may change speed as nowhere inside, because its last pose nearly met its
@@ -86,13 +91,14 @@ void soften_seam(std::vector<Quat>& rotations) {
   for (int round = 0; round < kSeamRounds; ++round) {
     double inside = 0;
     for (std::size_t k = 1; k + 1 < n; ++k) inside = std::max(inside, kink_at(rotations, k));
-    const double seam = std::max({kink_at(rotations, n - 1), kink_at(rotations, 0)});
+    const double seam = std::max(kink_at(rotations, n - 1), kink_at(rotations, 0));
     if (seam <= inside) return;
+    const double too_much = 1 - angle_of_kink(inside) / angle_of_kink(seam);
     const std::vector<Quat> old = rotations;
     for (std::size_t i = n - kSeamReach; i <= n + kSeamReach; ++i) {
       const std::size_t k = i % n;
-      rotations[k] = old[k].slerp(std::min(1.0, 2 * (1 - inside / seam)),
-                                  smoothed(old[(k + n - 1) % n], old[k], old[(k + 1) % n]));
+      rotations[k] =
+          old[k].slerp(std::min(1.0, 2 * too_much), smoothed(old[(k + n - 1) % n], old[k], old[(k + 1) % n]));
     }
   }
 }
@@ -133,6 +139,13 @@ std::vector<double> frames_at_keys(const PartMotion& motion) {
   return frames;
 }
 
+// The identity for joints that are not turned.
+Quat turn_of(const PartMotion& motion, SourceId source, JointId joint) {
+  for (const LimbTurn& turn : motion.turns)
+    if (turn.source == source && turn.joint == joint) return turn.turn;
+  return Quat::Identity();
+}
+
 }  // namespace
 
 std::vector<JointTracks> part_tracks(const Graft& graft, SourceId source, const PartMotion& motion) {
@@ -144,9 +157,11 @@ std::vector<JointTracks> part_tracks(const Graft& graft, SourceId source, const 
     const JointId result = result_joint[j];
     if (!result.is_valid()) continue;
     const Similarity& change = graft.origins[result.index()].change;
+    const Quat turn = turn_of(motion, source, JointId(j));
     for (std::size_t k = 0; k < frames.size(); ++k) {
       locals[k] = played(motion, frames[k], JointId(j));
       if (!change.is_identity()) locals[k] = premultiplied(change, locals[k]);
+      locals[k].rotation = turn * locals[k].rotation;
     }
     JointTracks tracks = make_tracks(result, graft.skeleton[result], locals, motion);
     const bool stays = tracks.translation.is_empty() && tracks.rotation.is_empty() && tracks.scale.is_empty();

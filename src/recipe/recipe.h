@@ -207,6 +207,7 @@ struct ClipSettings {
   std::optional<double> rate_hz;
   std::optional<std::array<double, 2>> tempo;
   std::optional<double> limb_phase;
+  std::optional<double> limb_clearing_deg;
   std::optional<bool> loop;      ///< whether it is played in a loop; by default found from its poses
   std::vector<std::string> use;  ///< clips of other inputs that poses may be taken from; empty: all
   std::string with;              ///< clip of another input that is played as it is; empty: none
@@ -214,7 +215,7 @@ struct ClipSettings {
   auto operator<=>(const ClipSettings&) const = default;
   template <class Archive>
   friend void fields(Archive& a, ClipSettings& c) {
-    a(c.complete, c.method, c.rate_hz, c.tempo, c.limb_phase, c.loop, c.use, c.with);
+    a(c.complete, c.method, c.rate_hz, c.tempo, c.limb_phase, c.limb_clearing_deg, c.loop, c.use, c.with);
   }
 };
 
@@ -229,6 +230,9 @@ struct AnimationOptions {
   /// Share of a step by which limbs that the body has twice follow those it had before; [0, 1]; 0 moves both
   /// alike. By default the limbs of one kind share the step evenly.
   std::optional<double> limb_phase;
+  /// Degrees by which a limb of a completed part may be turned for a whole clip, so that it does not cut the
+  /// driving part; [0, 90].
+  double limb_clearing_deg = 40;
   double key_tolerance =
       1e-4;  ///< of the diagonal: what leaving out keys of completed tracks may move; [0, 0.1]
   std::map<std::string, ClipSettings> per_clip;  ///< by the clip's name, in its input or in the result
@@ -236,8 +240,8 @@ struct AnimationOptions {
   auto operator<=>(const AnimationOptions&) const = default;
   template <class Archive>
   friend void fields(Archive& a, AnimationOptions& o) {
-    a(o.all_clips, o.clips, o.complete, o.method, o.rate_hz, o.tempo, o.limb_phase, o.key_tolerance,
-      o.per_clip);
+    a(o.all_clips, o.clips, o.complete, o.method, o.rate_hz, o.tempo, o.limb_phase, o.limb_clearing_deg,
+      o.key_tolerance, o.per_clip);
   }
 };
 

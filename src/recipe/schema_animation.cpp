@@ -40,6 +40,11 @@ Json limb_phase() {
       number(0, 1, "step"), {0, 0.25});
 }
 
+constexpr const char* kLimbClearing =
+    "How far a limb of a completed part may be turned, by one turn for the whole clip, so that it does not "
+    "cut "
+    "the part that drives the clip; 0 leaves it as its own clips have it.";
+
 Json complete() {
   return described("Give the other parts motion.", {{"type", "boolean"}}, {false});
 }
@@ -52,6 +57,7 @@ Json clip_settings() {
       {"rate_hz", rate()},
       {"tempo", tempo()},
       {"limb_phase", limb_phase()},
+      {"limb_clearing_deg", optional(kLimbClearing, number(0, 90, "degree"), {0})},
       {"loop", optional("Whether the clip is played in a loop; without it that is found from its poses.",
                         {{"type", "boolean"}}, {true})},
       {"use", described("Clips of other inputs that poses may be taken from; without it all.", clip_names(),
@@ -73,6 +79,8 @@ Json animation() {
       {"rate_hz", rate()},
       {"tempo", with_default(tempo(), defaults.tempo)},
       {"limb_phase", limb_phase()},
+      {"limb_clearing_deg",
+       described(kLimbClearing, with_default(number(0, 90, "degree"), defaults.limb_clearing_deg), {0, 60})},
       {"key_tolerance",
        described("How far leaving out keys of completed tracks may move any point of the skin.",
                  with_default(number(0, 0.1, "diagonal"), defaults.key_tolerance), {0.001})},

@@ -174,6 +174,12 @@ struct PosedReport {
   double foot_slide = 0;
 };
 
+/// A limb that was turned for a whole clip.
+struct TurnedLimb {
+  std::string joint;
+  double degrees = 0;
+};
+
 struct ClipReport {
   std::string name;
   std::string input;
@@ -182,6 +188,7 @@ struct ClipReport {
   std::int64_t keys = 0;
   std::int64_t driven_joints = 0;
   std::vector<FrameRun> completed_from;
+  std::vector<TurnedLimb> turned_limbs;
   std::optional<double> mean_distance;
   std::int64_t jumps = 0;
   std::string playback;

@@ -240,6 +240,12 @@ void describe(const PosedReport& p, F& f) {
 }
 
 template <class F>
+void describe(const TurnedLimb& l, F& f) {
+  f("joint", l.joint, "text", "The joint that carries the limb");
+  f("degrees", l.degrees, "degree", "How far it was turned");
+}
+
+template <class F>
 void describe(const ClipReport& c, F& f) {
   f("name", c.name, "text", "Name in the result");
   f("input", c.input, "text", "Input that drives it");
@@ -249,6 +255,8 @@ void describe(const ClipReport& c, F& f) {
   f("driven_joints", c.driven_joints, "count", "Joints of the result that have a track");
   f("completed_from", c.completed_from, "list",
     "Frames chosen for the other sources (SkinMixer Sec. 8), as runs");
+  f("turned_limbs", c.turned_limbs, "list",
+    "Limbs of other sources that were turned for the whole clip, so that they do not cut what drives it");
   f("mean_distance", c.mean_distance, "ratio",
     "Mean keyframe distance of the chosen frames, 0 = alike; null: none chosen");
   f("jumps", c.jumps, "count", "Steps between the chosen frames that no clip makes");

@@ -168,6 +168,7 @@ CompletionOptions completion_options(const AnimationOptions& animation, const Cl
   options.tempo = settings.tempo.value_or(animation.tempo);
   options.loop = settings.loop;
   options.limb_phase = settings.limb_phase ? settings.limb_phase : animation.limb_phase;
+  options.clearing = radians(settings.limb_clearing_deg.value_or(animation.limb_clearing_deg));
   options.key_tolerance = animation.key_tolerance;
   return options;
 }

@@ -62,6 +62,7 @@ ClipReport report_clip(const CompletedClip& completed, const ClipQuality& qualit
   for (const CompletionRecord::Choice& c : record.choices)
     frames.push_back({c.source.value, c.time, c.clip, c.clip_time});
   r.completed_from = frame_runs(frames);
+  for (const CompletionRecord::Turn& t : record.turns) r.turned_limbs.push_back({t.joint, degrees(t.angle)});
   if (!frames.empty()) r.mean_distance = record.mean_distance;
   r.jumps = record.jumps;
   r.playback = record.is_loop ? "loop" : "once";

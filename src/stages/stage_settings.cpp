@@ -46,6 +46,7 @@ const std::vector<StageSetting> kSettings = {
     {"/animation/rate_hz", {"complete_clip"}},
     {"/animation/tempo", {"complete_clip"}},
     {"/animation/limb_phase", {"complete_clip"}},
+    {"/animation/limb_clearing_deg", {"complete_clip"}},
     {"/animation/key_tolerance", {"complete_clip"}},
     {"/animation/per_clip", {"complete_clip"}},
     {"/correctives", {"correct"}},

@@ -158,6 +158,7 @@ TEST_F(KeyTable, WhatTheRecipeSaysMatters) {
       {"mix.json", "\"joint\"", "\"surface\": { \"elements\": \"triangles\" }, \"joint\"", "junction"},
       {"mix.json", "\"ops\"", "\"animation\": { \"tempo\": [0.9, 1.1] }, \"ops\"", "complete_clip"},
       {"mix.json", "\"ops\"", "\"animation\": { \"limb_phase\": 0.25 }, \"ops\"", "complete_clip"},
+      {"mix.json", "\"ops\"", "\"animation\": { \"limb_clearing_deg\": 0 }, \"ops\"", "complete_clip"},
       {"mix.json", "\"ops\"", "\"animation\": { \"key_tolerance\": 0.001 }, \"ops\"", "complete_clip"},
       {"mix.json", "\"ops\"", "\"output\": { \"influences\": 8 }, \"ops\"", "bind"},
       {"mix.json", "\"ops\"", "\"expect\": { \"joints\": 1 }, \"ops\"", "expect"},

@@ -117,19 +117,21 @@ TEST(LoadRecipe, LeavesDefaults) {
 TEST(LoadRecipe, ReadsSettingsOfClips) {
   const AnimationOptions options =
       parse(with_member(R"("animation": {"method": "paper", "tempo": [0.8, 1.25], "limb_phase": 0,
-                       "key_tolerance": 0, "per_clip": {
-                         "Gallop": {"use": ["Run", "Walk"], "loop": true, "rate_hz": 24},
+                       "limb_clearing_deg": 60, "key_tolerance": 0, "per_clip": {
+                         "Gallop": {"use": ["Run", "Walk"], "loop": true, "rate_hz": 24, "limb_clearing_deg": 0},
                          "Idle": {"with": "Idle", "complete": false, "method": "sequence"}}})"))
           .animation;
   EXPECT_EQ(options.method, CompletionMethod::Paper);
   EXPECT_THAT(options.tempo, ElementsAre(0.8, 1.25));
   EXPECT_EQ(options.limb_phase, 0);
+  EXPECT_EQ(options.limb_clearing_deg, 60);
   EXPECT_EQ(options.key_tolerance, 0);
   EXPECT_EQ(options.rate_hz, std::nullopt);
   const ClipSettings &gallop = options.per_clip.at("Gallop"), &idle = options.per_clip.at("Idle");
   EXPECT_THAT(gallop.use, ElementsAre("Run", "Walk"));
   EXPECT_EQ(gallop.loop, true);
   EXPECT_EQ(gallop.rate_hz, 24);
+  EXPECT_EQ(gallop.limb_clearing_deg, 0);
   EXPECT_EQ(gallop.complete, std::nullopt);
   EXPECT_EQ(idle.with, "Idle");
   EXPECT_EQ(idle.complete, false);

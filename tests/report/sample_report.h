@@ -69,6 +69,7 @@ inline Report sample_report() {
                      1200,
                      34,
                      {{1, "Idle", 0, 0.2, 1.2, 31}},
+                     {{"human_UpperArm.L", 12.5}},
                      0.4,
                      2,
                      "loop",
