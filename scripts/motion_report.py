@@ -6,7 +6,9 @@ loop, CPU seconds of the clips.
 usage: scripts/motion_report.py [--program build/release/skinforge] [RECIPE ...]   (default: recipes/*.json)
 
 Spikes and gaps are measured on the finished GLB, by this script alone: a step of a completed joint between two samples
-1/30 s apart is a spike when it is above 3 times the median of the steps around it and visible (above 0.05 radians)."""
+1/30 s apart is a spike when it is above 3 times the median of the steps around it and visible (above 0.05 radians). Those
+that the joint makes in its own clip, too, at the moment that is shown there (within three frames), are the clip's blows and falls;
+the column "added" has the others."""
 
 import argparse
 import glob
@@ -67,32 +69,80 @@ def resampled(times, keys, duration):
     return samples
 
 
+class Motion:
+    """The rotations of one animation of a GLB: joint name -> (times, keys)."""
+
+    def __init__(self, gltf, binary, animation):
+        self.tracks = {}
+        for channel in animation["channels"]:
+            sampler = animation["samplers"][channel["sampler"]]
+            if channel["target"]["path"] != "rotation":
+                continue
+            times = [t[0] for t in floats(gltf, binary, sampler["input"])]
+            keys = floats(gltf, binary, sampler["output"])
+            if sampler.get("interpolation") == "CUBICSPLINE":
+                keys = keys[1::3]
+            if len(times) >= 3:
+                self.tracks[gltf["nodes"][channel["target"]["node"]].get("name")] = (times, keys)
+
+    def spikes(self, joint, duration):
+        """Times at which the joint makes a step that is a spike."""
+        if joint not in self.tracks:
+            return []
+        samples = resampled(*self.tracks[joint], duration)
+        steps = [angle(a, b) for a, b in zip(samples, samples[1:])]
+        found = []
+        for k, step in enumerate(steps):
+            around = sorted(steps[max(0, k - AROUND):k + AROUND + 1])
+            if step > max(VISIBLE, 3 * around[len(around) // 2]):
+                found.append((k + 0.5) * duration / len(steps))
+        return found
+
+
+def shown_at(clip, source, time):
+    """Name of the source clip that a completed source shows at a time, and when in it; None: nothing."""
+    runs = [run for run in clip["completed_from"] if run["source"] == source and run["time"] <= time + 1e-6]
+    if not runs:
+        return None
+    run = runs[-1]
+    return run["clip"], min(run["clip_end"], run["clip_begin"] + time - run["time"])
+
+
+def is_own(spikes, time, duration):
+    """Whether a clip has a spike within three frames, also across its ends."""
+    near = 3.0 / RATE
+    return any(min(abs(s - time), abs(abs(s - time) - duration)) <= near for s in spikes)
+
+
 def measure(folder, name):
     report = json.load(open(os.path.join(folder, "report.json")))
     gltf, binary = read_glb(os.path.join(folder, name + ".glb"))
-    input_of = {joint["joint"]: joint["input"] for joint in report["joints"]}
+    joints = {joint["joint"]: joint for joint in report["joints"]}
     clips = {clip["name"]: clip for clip in report["clips"]}
-    total = {"distance": 0.0, "completed": 0, "jumps": 0, "spikes": 0, "gap": 0.0}
-    for animation in gltf.get("animations", []):
-        clip = clips[animation["name"]]
+    in_source = {(clip["input"], clip["source_clip"]): clip for clip in report["clips"]}
+    motions = {a["name"]: Motion(gltf, binary, a) for a in gltf.get("animations", [])}
+    own = {}  # (clip of the result, joint) -> its spikes
+    total = {"distance": 0.0, "completed": 0, "jumps": 0, "spikes": 0, "added": 0, "gap": 0.0}
+    for clip_name, motion in motions.items():
+        clip = clips[clip_name]
         total["jumps"] += clip["jumps"]
         if clip["mean_distance"] is not None:
             total["distance"] += clip["mean_distance"]
             total["completed"] += 1
-        for channel in animation["channels"]:
-            joint = gltf["nodes"][channel["target"]["node"]].get("name")
-            sampler = animation["samplers"][channel["sampler"]]
-            if channel["target"]["path"] != "rotation" or input_of.get(joint) == clip["input"]:
+        for joint, (times, keys) in motion.tracks.items():
+            if joints.get(joint, {}).get("input") == clip["input"]:
                 continue
-            times = [t[0] for t in floats(gltf, binary, sampler["input"])]
-            keys = floats(gltf, binary, sampler["output"])
-            if len(times) < 3:
-                continue
-            samples = resampled(times, keys, clip["duration"])
-            steps = [angle(a, b) for a, b in zip(samples, samples[1:])]
-            for k, step in enumerate(steps):
-                around = sorted(steps[max(0, k - AROUND):k + AROUND + 1])
-                total["spikes"] += step > max(VISIBLE, 3 * around[len(around) // 2])
+            for time in motion.spikes(joint, clip["duration"]):
+                total["spikes"] += 1
+                shown = shown_at(clip, joints[joint]["source"], time)
+                source = shown and in_source.get((joints[joint]["input"], shown[0]))
+                if not source:
+                    total["added"] += 1
+                    continue
+                key = (source["name"], joint)
+                if key not in own:
+                    own[key] = motions[source["name"]].spikes(joint, source["duration"])
+                total["added"] += not is_own(own[key], shown[1], source["duration"])
             reach = max(angle(keys[0], q) for q in keys)
             if clip["playback"] == "loop" and reach > 0.01:
                 total["gap"] = max(total["gap"], angle(keys[0], keys[-1]) / reach)
@@ -135,15 +185,15 @@ def main():
     parser.add_argument("recipes", nargs="*")
     arguments = parser.parse_args()
     recipes = arguments.recipes or sorted(glob.glob("recipes/*.json"))
-    row = "{:<28} {:>8} {:>8} {:>6} {:>6} {:>6} {:>6} {:>8} {:>8} {:>6} {:>6}"
-    print(row.format("", "distance", "", "jumps", "", "spikes", "", "gap", "", "secs", ""))
-    print(row.format("recipe", *["seq.", "paper"] * 5))
+    row = "{:<28} {:>8} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>8} {:>8} {:>6} {:>6}"
+    print(row.format("", "distance", "", "jumps", "", "spikes", "", "added", "", "gap", "", "secs", ""))
+    print(row.format("recipe", *["seq.", "paper"] * 6))
     for recipe in recipes:
         ours, fast = build(arguments.program, recipe, "sequence")
         paper, slow = build(arguments.program, recipe, "paper")
         print(row.format(os.path.basename(recipe)[:-5], *("%.4f" % (m["distance"] / max(1, m["completed"]))
                                                           for m in (ours, paper)),
-                         ours["jumps"], paper["jumps"], ours["spikes"], paper["spikes"], "%.4f" % ours["gap"], "%.4f" % paper["gap"], "%.2f" % fast,
+                         ours["jumps"], paper["jumps"], ours["spikes"], paper["spikes"], ours["added"], paper["added"], "%.4f" % ours["gap"], "%.4f" % paper["gap"], "%.2f" % fast,
                          "%.2f" % slow), flush=True)
 
 

@@ -11,6 +11,10 @@ namespace {
 constexpr std::size_t kBlock = Lanes::kCount;
 constexpr std::size_t kStretch = 4 * kBlock;  // frames whose places are looked at only where they may be near
 
+struct BallPlaces {
+  const float *x, *y, *z;
+};
+
 Eigen::AlignedBox3f box_of(const BallTrack& track, std::size_t first, std::size_t count) {
   Eigen::AlignedBox3f box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -23,17 +27,19 @@ Eigen::AlignedBox3f box_of(const BallTrack& track, std::size_t first, std::size_
   return box;
 }
 
-// Squared distances of a ball from `count` places, a whole number of blocks; whether any is below `limit`.
-SKINFORGE_VECTOR_CLONES bool any_within(const float* x, const float* y, const float* z, const float* ball,
-                                        float limit, std::size_t count, float* squared) {
+// Squared distances of a ball from `count` places, a whole number of blocks; whether any place is deeper in
+// it than it was in another, where depth is `touch` less the distance.
+SKINFORGE_VECTOR_CLONES bool any_deeper(const BallPlaces& places, const float* ball, float touch,
+                                        const float* deepest, std::size_t count, float* squared) {
   int any = 0;
   for (std::size_t c = 0; c < count; c += kBlock) {
-    const Lanes dx = Lanes::load(x + c) + -ball[0], dy = Lanes::load(y + c) + -ball[1],
-                dz = Lanes::load(z + c) + -ball[2];
+    const Lanes dx = Lanes::load(places.x + c) + -ball[0], dy = Lanes::load(places.y + c) + -ball[1],
+                dz = Lanes::load(places.z + c) + -ball[2];
     const Lanes sum{dx.v * dx.v + dy.v * dy.v + dz.v * dz.v};
     sum.store(squared + c);
-    const auto below = sum.v < limit;
-    for (std::size_t k = 0; k < kBlock; ++k) any |= below[k];
+    const Lanes room = max(Lanes::all(touch) + Lanes{-Lanes::load(deepest + c).v}, Lanes::all(0));
+    const auto gains = sum.v < room.v * room.v;
+    for (std::size_t k = 0; k < kBlock; ++k) any |= gains[k];
   }
   return any != 0;
 }
@@ -64,6 +70,9 @@ Clearance::Clearance(std::span<const Seam> seams, std::size_t first, std::size_t
         const auto touch = static_cast<float>(seam.touching(a, b));
         if (apart < touch) side.pairs.push_back({a, b, touch});
       }
+    // Large balls go deepest; after them few others count.
+    std::stable_sort(side.pairs.begin(), side.pairs.end(),
+                     [](const Pair& a, const Pair& b) { return a.touch > b.touch; });
     sides_.push_back(std::move(side));
   }
 }
@@ -80,34 +89,44 @@ double Clearance::depth(std::size_t row, std::size_t candidate) const {
   return static_cast<double>(deepest);
 }
 
-void Clearance::deepen(const Side& side, const Pair& pair, std::size_t row, std::vector<float>& deepest) {
-  const Eigen::Vector3f ball = side.driver[pair.driver].at(row);
+// One stretch of candidates, of which none is deeper than `shallowest`; `deepest` of its first candidate.
+void Clearance::deepen(const Side& side, const Pair& pair, const Eigen::Vector3f& ball, std::size_t stretch,
+                       Depths& depths) {
+  const float room = pair.touch - depths.shallowest[stretch];
+  if (room <= 0 || side.reaches[pair.part][stretch].squaredExteriorDistance(ball) >= room * room) return;
   const BallTrack& track = side.part[pair.part];
-  const Reaches& reaches = side.reaches[pair.part];
-  const float limit = pair.touch * pair.touch;
+  const std::size_t first = stretch * kStretch, count = std::min(kStretch, depths.count - first);
+  const std::size_t whole = count / kBlock * kBlock;
+  float* deepest = depths.deepest.data() + first;
   std::array<float, kStretch> squared = {};
-  for (std::size_t s = 0; s < reaches.size(); ++s) {
-    if (reaches[s].squaredExteriorDistance(ball) >= limit) continue;
-    const std::size_t first = s * kStretch, count = std::min(kStretch, deepest.size() - first);
-    const std::size_t whole = count / kBlock * kBlock;
-    bool is_near =
-        whole > 0 && any_within(track.places[0].data() + first, track.places[1].data() + first,
-                                track.places[2].data() + first, ball.data(), limit, whole, squared.data());
-    for (std::size_t c = whole; c < count; ++c) {
-      squared[c] = (track.at(first + c) - ball).squaredNorm();
-      is_near = is_near || squared[c] < limit;
-    }
-    for (std::size_t c = 0; is_near && c < count; ++c)
-      if (squared[c] < limit)
-        deepest[first + c] = std::max(deepest[first + c], side.unit * (pair.touch - std::sqrt(squared[c])));
+  const BallPlaces places{track.places[0].data() + first, track.places[1].data() + first,
+                          track.places[2].data() + first};
+  const bool gains =
+      whole > 0 && any_deeper(places, ball.data(), pair.touch, deepest, whole, squared.data());
+  for (std::size_t c = whole; c < count; ++c) squared[c] = (track.at(first + c) - ball).squaredNorm();
+  for (std::size_t c = gains ? 0 : whole; c < count; ++c) {
+    const float lacks = pair.touch - deepest[c];
+    if (lacks > 0 && squared[c] < lacks * lacks)
+      deepest[c] = std::min(depths.most, pair.touch - std::sqrt(squared[c]));
   }
+  if (gains) depths.shallowest[stretch] = *std::min_element(deepest, deepest + count);
 }
 
-Eigen::ArrayXf Clearance::depths(std::size_t row, std::size_t candidates) const {
-  std::vector<float> deepest(candidates, 0.0F);
-  for (const Side& side : sides_)
-    for (const Pair& pair : side.pairs) deepen(side, pair, row, deepest);
-  return Eigen::Map<const Eigen::ArrayXf>(deepest.data(), static_cast<Eigen::Index>(candidates));
+Eigen::ArrayXf Clearance::depths(std::size_t row, std::size_t candidates, double most) const {
+  Eigen::ArrayXf result = Eigen::ArrayXf::Zero(static_cast<Eigen::Index>(candidates));
+  for (const Side& side : sides_) {
+    const std::size_t stretches = (candidates + kStretch - 1) / kStretch;
+    Depths depths{candidates, static_cast<float>(most) / side.unit,
+                  std::vector<float>(stretches * kStretch, 0.0F), std::vector<float>(stretches, 0.0F)};
+    for (const Pair& pair : side.pairs) {
+      const Eigen::Vector3f ball = side.driver[pair.driver].at(row);
+      for (std::size_t s = 0; s < stretches; ++s)
+        if (depths.shallowest[s] < depths.most) deepen(side, pair, ball, s, depths);
+    }
+    result = result.max(side.unit *
+                        Eigen::Map<const Eigen::ArrayXf>(depths.deepest.data(), result.size()));
+  }
+  return result;
 }
 
 }  // namespace skinforge

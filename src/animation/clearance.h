@@ -18,8 +18,8 @@ class Clearance {
   /// Depth of the deepest pair beyond what it has in the bind pose, as a share of the base's diagonal. 0 =
   /// they are clear. `row`: of the driver's frames; `candidate`: frame of the part's motion set.
   double depth(std::size_t row, std::size_t candidate) const;
-  /// The same for all candidates.
-  Eigen::ArrayXf depths(std::size_t row, std::size_t candidates) const;
+  /// The same for all candidates, but at most `most`.
+  Eigen::ArrayXf depths(std::size_t row, std::size_t candidates, double most) const;
 
  private:
   // Two balls that may meet.
@@ -35,7 +35,14 @@ class Clearance {
     std::vector<Pair> pairs;
     float unit = 1;  // what a length in its frame is, of the base's diagonal
   };
-  static void deepen(const Side& side, const Pair& pair, std::size_t row, std::vector<float>& deepest);
+  // Of candidates, in lengths of a seam's frame, and the least of each stretch.
+  struct Depths {
+    std::size_t count;
+    float most;
+    std::vector<float> deepest, shallowest;
+  };
+  static void deepen(const Side& side, const Pair& pair, const Eigen::Vector3f& ball, std::size_t stretch,
+                     Depths& depths);
 
   std::vector<Side> sides_;
 };

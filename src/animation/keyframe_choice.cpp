@@ -157,7 +157,7 @@ std::int64_t add_cutting_costs(const Clearance& clearance, const KeyframePath& p
     ++found;
     const auto row = costs.row(f);
     Eigen::Map<Eigen::ArrayXf>(row.data(), static_cast<Eigen::Index>(row.size())) +=
-        (kCuttingCost * clearance.depths(f, row.size())).min(kMostForCutting);
+        kCuttingCost * clearance.depths(f, row.size(), kMostForCutting / kCuttingCost);
   }
   return found;
 }

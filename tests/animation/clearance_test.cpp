@@ -49,7 +49,7 @@ TEST(Clearance, IsDeepWhereTheArmGoesThroughThePost) {
              beside = static_cast<std::size_t>(m.motions[1].clip_begin[1]);
   EXPECT_GT(clearance.depth(0, through), 0.01);
   EXPECT_EQ(clearance.depth(0, beside), 0);
-  const Eigen::ArrayXf depths = clearance.depths(0, frames);
+  const Eigen::ArrayXf depths = clearance.depths(0, frames, 1);
   for (std::size_t c = 0; c < frames; ++c)
     EXPECT_NEAR(depths[static_cast<Eigen::Index>(c)], clearance.depth(0, c), 1e-6);
 }
