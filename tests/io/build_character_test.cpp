@@ -100,6 +100,26 @@ TEST(BuildCharacter, VerticesWithOtherWeightsStayApart) {
   EXPECT_TRUE(codes(issues).count("weld-refused"));
 }
 
+TEST(BuildCharacter, WeldsFarOut) {
+  RawScene scene = two_joints();
+  for (Vec3& p : scene.meshes[0].primitives[0].positions) p *= 3e38;
+  scene.nodes[2].local.translation *= 3e38;
+  scene.skins[0].inverse_bind[1].translation() *= 3e38;
+  IssueSink issues;
+  const Character c = build_character(scene, "square", issues);
+  ASSERT_EQ(c.mesh.vertex_count(), 4u);
+  EXPECT_EQ(c.mesh.positions[2], Vec3(3e38, 3e38, 0));
+  EXPECT_EQ(c.mesh.face_count(), 2u);
+}
+
+// The diagonal of the square overflows, and with it the tolerance.
+TEST(BuildCharacter, WeldsNothingThatHasNoSize) {
+  RawScene scene = two_joints();
+  for (Vec3& p : scene.meshes[0].primitives[0].positions) p *= 1e308;
+  IssueSink issues;
+  EXPECT_EQ(build_character(scene, "square", issues).mesh.vertex_count(), 6u);
+}
+
 TEST(BuildCharacter, CollapsedFacesGo) {
   RawScene scene = two_joints();
   scene.meshes[0].primitives[0].positions[1] = {1e-9, 0, 0};  // nearer to vertex 0 than a millionth
