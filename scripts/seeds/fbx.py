@@ -130,7 +130,7 @@ def variations():
     for i in range(len(LINKS)):
         yield file(LINKS[:i] + LINKS[i + 1 :])
     for more in ([("OO", 1, 2)], [("OO", 1, 1)], [("OO", 22, 20), ("OO", 30, 22)], [("OO", 12, 10), ("OO", 11, 12)], [("OO",)],
-                 [("OP", 40, 30, "d|Y")], [("OP", 30, 3, "Lcl Rotation")], [("OP", 30, 10, "Lcl Rotation")], [("OO", 40, 21)]):
+                 [*LINKS], [("OP", 40, 30, "d|Y")], [("OP", 30, 3, "Lcl Rotation")], [("OP", 30, 10, "Lcl Rotation")], [("OO", 40, 21)]):
         yield file(LINKS + more)
     whole = objects()
     for i, one in enumerate(whole):

@@ -59,6 +59,7 @@ class AnimationReader {
   RawScene::Animation read(const aiAnimation& source) {
     RawScene::Animation animation;
     animation.name = to_text(source.mName);
+    places_.clear();
     const double rate = source.mTicksPerSecond > 0 ? source.mTicksPerSecond : kDefaultTicksPerSecond;
     for (unsigned c = 0; c < source.mNumChannels; ++c) {
       const aiNodeAnim& channel = *source.mChannels[c];
@@ -81,10 +82,9 @@ class AnimationReader {
                                fmt::format("no node \"{}\" for a channel", printable(name))});
       return nullptr;
     }
-    for (RawScene::NodeTracks& tracks : animation.nodes)
-      if (tracks.node == node->second) return &tracks;
-    animation.nodes.emplace_back().node = node->second;
-    return &animation.nodes.back();
+    const auto [place, is_new] = places_.try_emplace(node->second, animation.nodes.size());
+    if (is_new) animation.nodes.emplace_back().node = node->second;
+    return &animation.nodes[place->second];
   }
 
   /// A morph channel is called "NODE*INDEX".
@@ -99,6 +99,7 @@ class AnimationReader {
   }
 
   std::map<std::string, std::int32_t> names_;
+  std::map<std::int32_t, std::size_t> places_;  ///< of a node's tracks in the animation at hand
   RawScene& scene_;
 };
 

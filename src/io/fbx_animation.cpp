@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "base/error.h"
 #include "base/limits.h"
 #include "base/text.h"
 #include "io/fbx_curve.h"
@@ -25,7 +26,7 @@ constexpr std::size_t kNumbersPerKey = 33;  // three tracks with times, values a
 
 /// Three curves of one property; a missing one holds its default.
 struct Channel {
-  std::array<std::optional<FbxCurve>, 3> curves;
+  std::array<const FbxCurve*, 3> curves{};
   Vec3 defaults = Vec3::Zero();
 
   bool is_driven() const {
@@ -200,6 +201,8 @@ class Restorer {
  public:
   Restorer(const FbxScene& fbx, RawScene& scene) : fbx_(fbx), scene_(scene), frame_(1 / fbx.frame_rate()) {
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) nodes_[scene.nodes[n].name].push_back(n);
+    for (std::size_t a = 0; a < scene.animations.size(); ++a)
+      animations_[scene.animations[a].name].push_back(a);
     for (const std::int64_t id : fbx.all("Model")) models_[fbx.name(id)].push_back(id);
   }
 
@@ -209,8 +212,9 @@ class Restorer {
       const std::string name = fbx_.name(stack);
       RawScene::Animation* animation = find(name, seen[name]++);
       if (!animation) continue;
-      const auto motions = motions_of(stack, name);
-      for (const auto& [model, motion] : motions) restore(model, motion, *animation);
+      tracks_.clear();
+      for (RawScene::NodeTracks& tracks : animation->nodes) tracks_.try_emplace(tracks.node, &tracks);
+      for (const auto& [model, motion] : motions_of(stack, name)) restore(model, motion, name);
     }
     if (restored_ > 0)
       scene_.issues.push_back(
@@ -220,42 +224,61 @@ class Restorer {
   }
 
  private:
+  /// What an AnimationCurveNode brings, whatever it drives.
+  struct CurveNode {
+    std::array<const FbxCurve*, 3> curves{};
+    std::array<std::optional<double>, 3> defaults;
+  };
+
   RawScene::Animation* find(const std::string& name, std::size_t number) {
-    for (RawScene::Animation& animation : scene_.animations)
-      if (animation.name == name && number-- == 0) return &animation;
-    return nullptr;
+    const auto found = animations_.find(name);
+    const bool is_there = found != animations_.end() && number < found->second.size();
+    return is_there ? &scene_.animations[found->second[number]] : nullptr;
   }
 
   std::map<std::int64_t, Motion> motions_of(std::int64_t stack, const std::string& name) {
+    std::vector<std::int64_t> layers;
+    for (const FbxScene::Link& layer : fbx_.sources(stack))
+      if (drives(layer.object)) layers.push_back(layer.object);
     std::map<std::int64_t, Motion> motions;
-    std::size_t layers = 0;
-    for (const FbxScene::Link& layer : fbx_.sources(stack)) {
-      bool drives = false;
-      for (const FbxScene::Link& link : fbx_.sources(layer.object))
-        drives |= add_curve_node(link.object, motions);
-      layers += drives;
-    }
-    if (layers <= 1) return motions;
-    scene_.issues.push_back({"layers-as-keys", Severity::Warning, "clip " + printable(name),
-                             fmt::format("{} animation layers; only their keys are read", layers)});
-    return {};
+    if (layers.size() == 1) add_layer(layers.front(), motions);
+    if (layers.size() > 1)
+      scene_.issues.push_back({"layers-as-keys", Severity::Warning, "clip " + printable(name),
+                               fmt::format("{} animation layers; only their keys are read", layers.size())});
+    return motions;
   }
 
-  /// Whether it drives a node.
-  bool add_curve_node(std::int64_t id, std::map<std::int64_t, Motion>& motions) {
-    const FbxNode* node = fbx_.object(id);
-    if (!node || node->name != "AnimationCurveNode") return false;
-    bool drives = false;
-    for (const FbxScene::Link& target : fbx_.targets(id)) {
+  /// The models that a source of a layer drives, and which of their properties.
+  std::vector<std::pair<std::int64_t, std::size_t>> driven_by(std::int64_t curve_node) const {
+    std::vector<std::pair<std::int64_t, std::size_t>> driven;
+    const FbxNode* node = fbx_.object(curve_node);
+    if (!node || node->name != "AnimationCurveNode") return driven;
+    for (const FbxScene::Link& target : fbx_.targets(curve_node)) {
       const FbxNode* model = fbx_.object(target.object);
       const auto slot = slot_of(target.property);
-      if (!model || model->name != "Model" || !slot) continue;
-      const auto [motion, is_new] = motions.try_emplace(target.object);
-      if (is_new) set_defaults(*model, motion->second);
-      fill(id, *node, motion->second[*slot]);
-      drives = true;
+      if (model && model->name == "Model" && slot) driven.emplace_back(target.object, *slot);
     }
-    return drives;
+    return driven;
+  }
+
+  bool drives(std::int64_t layer) {
+    const auto [known, is_new] = drives_.try_emplace(layer, false);
+    for (std::size_t i = 0; is_new && i < fbx_.sources(layer).size(); ++i) {
+      const std::int64_t source = fbx_.sources(layer)[i].object;
+      if (driven_by(source).empty()) continue;
+      curve_node(source);  // refused when it is damaged, though layers beside it are not summed
+      known->second = true;
+    }
+    return known->second;
+  }
+
+  void add_layer(std::int64_t layer, std::map<std::int64_t, Motion>& motions) {
+    for (const FbxScene::Link& link : fbx_.sources(layer))
+      for (const auto& [model, slot] : driven_by(link.object)) {
+        const auto [motion, is_new] = motions.try_emplace(model);
+        if (is_new) set_defaults(model, motion->second);
+        fill(curve_node(link.object), motion->second[slot]);
+      }
   }
 
   static std::optional<std::size_t> slot_of(const std::string& property) {
@@ -266,36 +289,75 @@ class Restorer {
     return static_cast<std::size_t>(found - kProperties.begin());
   }
 
-  static void set_defaults(const FbxNode& model, Motion& motion) {
-    const FbxTransform transform(model);
+  const FbxTransform& transform_of(std::int64_t model) {
+    const auto known = transforms_.find(model);
+    return known != transforms_.end() ? known->second
+                                      : transforms_.emplace(model, *fbx_.object(model)).first->second;
+  }
+
+  void set_defaults(std::int64_t model, Motion& motion) {
+    const FbxTransform& transform = transform_of(model);
     motion[0].defaults = transform.translation;
     motion[1].defaults = transform.rotation_deg;
     motion[2].defaults = transform.scale;
   }
 
-  void fill(std::int64_t id, const FbxNode& node, Channel& channel) const {
-    constexpr std::array<const char*, 3> kAxes = {"d|X", "d|Y", "d|Z"};
+  static void fill(const CurveNode& node, Channel& channel) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      auto& value = channel.defaults[static_cast<int>(axis)];
-      value = fbx_number(node, kAxes[axis], value);
-      for (const FbxScene::Link& source : fbx_.sources(id)) {
-        const FbxNode* curve = fbx_.object(source.object);
-        if (source.property == kAxes[axis] && curve && curve->name == "AnimationCurve")
-          channel.curves[axis].emplace(*curve);
-      }
+      if (node.defaults[axis]) channel.defaults[static_cast<int>(axis)] = *node.defaults[axis];
+      if (node.curves[axis]) channel.curves[axis] = node.curves[axis];
     }
   }
 
-  void restore(std::int64_t model, const Motion& motion, RawScene::Animation& animation) {
-    const FbxTransform transform(*fbx_.object(model));
+  const CurveNode& curve_node(std::int64_t id) {
+    constexpr std::array<const char*, 3> kAxes = {"d|X", "d|Y", "d|Z"};
+    const auto [known, is_new] = curve_nodes_.try_emplace(id);
+    CurveNode& node = known->second;
+    for (std::size_t axis = 0; is_new && axis < 3; ++axis) {
+      node.defaults[axis] = fbx_number(*fbx_.object(id), kAxes[axis]);
+      for (const FbxScene::Link& source : fbx_.sources(id))
+        if (source.property == kAxes[axis])
+          if (const FbxCurve* found = curve(source.object)) node.curves[axis] = found;
+    }
+    return node;
+  }
+
+  /// Null where there is no curve of that id.
+  const FbxCurve* curve(std::int64_t id) {
+    const FbxNode* node = fbx_.object(id);
+    if (!node || node->name != "AnimationCurve") return nullptr;
+    const auto known = curves_.find(id);
+    if (known != curves_.end()) return &known->second;
+    const FbxCurve& read = curves_.emplace(id, *node).first->second;
+    check_length(read);
+    return &read;
+  }
+
+  /// The parent would refuse the frames of a day and more, but only after they were made.
+  static void check_length(const FbxCurve& curve) {
+    if (curve.times().empty()) return;
+    const double seconds = curve.times().back() - curve.times().front();
+    if (seconds > static_cast<double>(limits().clip))
+      throw Error(ExitCode::BadInput, fmt::format("FBX: a curve of {} s, {}", seconds, limit_hint("clip")));
+  }
+
+  void restore(std::int64_t model, const Motion& motion, const std::string& clip) {
+    const FbxTransform& transform = transform_of(model);
     if (!is_lost(motion, transform, frame_)) return;
     const std::string name = fbx_.name(model);
-    RawScene::NodeTracks* tracks = tracks_of(animation, node_of(name, transform));
-    const std::vector<double> times = sample_times(motion, frame_, limits().keys / kNumbersPerKey - sampled_);
-    if (tracks && !times.empty()) return replace(*tracks, motion, transform, times);
+    const std::optional<std::size_t> node = node_of(name, transform);
+    const auto tracks = node ? tracks_.find(static_cast<std::int32_t>(*node)) : tracks_.end();
+    std::string why;
+    if (tracks != tracks_.end()) {
+      const std::vector<double> times =
+          sample_times(motion, frame_, limits().keys / kNumbersPerKey - sampled_);
+      if (!times.empty()) return replace(*tracks->second, motion, transform, times);
+      why = ", as keys for all frames were too many: " + limit_hint("keys");
+    }
     scene_.issues.push_back(
-        {"curves-as-keys", Severity::Warning, "clip " + printable(animation.name),
-         fmt::format("only the keys of node \"{}\" are read, not the curves between them", printable(name))});
+        {"curves-as-keys", Severity::Warning, "clip " + printable(clip),
+         fmt::format("only the keys of node \"{}\" are read, not the curves between them{}", printable(name),
+                     why)});
   }
 
   void replace(RawScene::NodeTracks& tracks, const Motion& motion, const FbxTransform& transform,
@@ -327,12 +389,6 @@ class Restorer {
            (ours.translation() - theirs.translation()).norm() <= kSamePose * t.reach();
   }
 
-  static RawScene::NodeTracks* tracks_of(RawScene::Animation& animation, std::optional<std::size_t> node) {
-    for (RawScene::NodeTracks& tracks : animation.nodes)
-      if (node && tracks.node == static_cast<std::int32_t>(*node)) return &tracks;
-    return nullptr;
-  }
-
   /// Assimp lets some stacks begin at 0; the sampled tracks go along with those that stay.
   static double shift(const RawScene::NodeTracks& tracks, double first) {
     std::optional<double> theirs;
@@ -347,6 +403,13 @@ class Restorer {
   double frame_;
   std::map<std::string, std::vector<std::size_t>> nodes_;
   std::map<std::string, std::vector<std::int64_t>> models_;
+  std::map<std::string, std::vector<std::size_t>> animations_;
+  std::map<std::int32_t, RawScene::NodeTracks*> tracks_;  ///< of the clip at hand, by node
+  // Read once, however much they drive: shared by all, they would be read as often as connections multiply.
+  std::map<std::int64_t, FbxTransform> transforms_;
+  std::map<std::int64_t, bool> drives_;
+  std::map<std::int64_t, CurveNode> curve_nodes_;
+  std::map<std::int64_t, FbxCurve> curves_;
   std::size_t restored_ = 0;
   std::size_t sampled_ = 0;  ///< keys of all of them
 };

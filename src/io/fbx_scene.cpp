@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/limits.h"
@@ -107,15 +108,16 @@ std::size_t check_geometry(const FbxNode& geometry) {
 void check_cluster(const FbxScene& scene, std::int64_t cluster,
                    const std::map<std::int64_t, std::size_t>& counts) {
   const std::vector<double> vertices = numbers_of(scene.object(cluster)->child("Indexes"));
+  std::optional<std::size_t> least;  // vertices of the smallest geometry that it deforms
   for (const FbxScene::Link& skin : scene.targets(cluster))
-    for (const FbxScene::Link& geometry : scene.targets(skin.object)) {
-      const auto count = counts.find(geometry.object);
-      if (count == counts.end()) continue;
-      for (const double vertex : vertices)
-        if (!(vertex >= 0 && vertex < static_cast<double>(count->second)))
-          throw Error(ExitCode::BadInput, fmt::format("FBX: cluster \"{}\" weights vertex {} of {}",
-                                                      printable(scene.name(cluster)), vertex, count->second));
-    }
+    for (const FbxScene::Link& geometry : scene.targets(skin.object))
+      if (const auto count = counts.find(geometry.object); count != counts.end())
+        least = std::min(least.value_or(count->second), count->second);
+  if (!least) return;
+  for (const double vertex : vertices)
+    if (!(vertex >= 0 && vertex < static_cast<double>(*least)))
+      throw Error(ExitCode::BadInput, fmt::format("FBX: cluster \"{}\" weights vertex {} of {}",
+                                                  printable(scene.name(cluster)), vertex, *least));
 }
 
 }  // namespace
@@ -123,10 +125,12 @@ void check_cluster(const FbxScene& scene, std::int64_t cluster,
 FbxScene::FbxScene(const FbxNode& root) : root_(root) {
   if (const FbxNode* list = root.child("Objects"))
     for (const FbxNode& object : list->children) objects_.emplace(object.integer(0), &object);
+  std::set<std::tuple<std::int64_t, std::int64_t, std::string>> known;
   if (const FbxNode* list = root.child("Connections"))
     for (const FbxNode& c : list->children) {
       if (c.values.size() < 3) continue;
       const std::string property = c.text(0) == "OP" ? c.text(3) : "";
+      if (!known.emplace(c.integer(1), c.integer(2), property).second) continue;
       sources_[c.integer(2)].push_back({c.integer(1), property});
       targets_[c.integer(1)].push_back({c.integer(2), property});
     }
@@ -171,7 +175,7 @@ std::string FbxScene::name(std::int64_t id) const {
 double FbxScene::frame_rate() const {
   const FbxNode* settings = root_.child("GlobalSettings");
   if (!settings) return 30;
-  return rate_of_mode(choice(*settings, "TimeMode", 0), fbx_number(*settings, "CustomFrameRate", 0));
+  return rate_of_mode(choice(*settings, "TimeMode", 0), fbx_number(*settings, "CustomFrameRate").value_or(0));
 }
 
 bool fbx_has(const FbxNode& object, const std::string& name) {
@@ -184,9 +188,10 @@ Vec3 fbx_vector(const FbxNode& object, const std::string& name, const Vec3& fall
                                             : fallback;
 }
 
-double fbx_number(const FbxNode& object, const std::string& name, double fallback) {
+std::optional<double> fbx_number(const FbxNode& object, const std::string& name) {
   const FbxNode* entry = property(object, name);
-  return entry && entry->values.size() >= 5 ? entry->number(4) : fallback;
+  if (!entry || entry->values.size() < 5) return std::nullopt;
+  return entry->number(4);
 }
 
 FbxTransform::FbxTransform(const FbxNode& model)

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@
 
 namespace skinforge {
 
-/// The objects of an FBX file and how they hang together.
+/// The objects of an FBX file and how they hang together. A connection that the file says again is not said
+/// again here: what follows connections takes the product of how many there are.
 class FbxScene {
  public:
   /// Refers to `root`, which must outlive it.
@@ -43,9 +45,9 @@ class FbxScene {
 
 /// Whether a node's Properties70 has the property.
 bool fbx_has(const FbxNode& object, const std::string& property);
-/// Values of a property in a node's Properties70; `fallback` when it is not there.
+/// Values of a property in a node's Properties70; `fallback` or none when it is not there.
 Vec3 fbx_vector(const FbxNode& object, const std::string& property, const Vec3& fallback);
-double fbx_number(const FbxNode& object, const std::string& property, double fallback);
+std::optional<double> fbx_number(const FbxNode& object, const std::string& property);
 
 /// How an FBX node makes its local transform out of translation, Euler angles and scale: pivots, offsets,
 /// pre- and post-rotation (FBX SDK, FbxNode, "transformation matrix"). The geometric transform is not part of

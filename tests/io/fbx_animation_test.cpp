@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "base/error.h"
 #include "base/limits.h"
 
 namespace skinforge {
@@ -103,6 +104,33 @@ TEST(FbxAnimation, ANodeThatIsNotFoundStaysAsKeys) {
   EXPECT_EQ(scene.issues[0].code, "curves-as-keys");
 }
 
+// Read once for each way from a stack to a curve, they would be read 10^8 times.
+TEST(FbxAnimation, RepeatedConnectionsAreReadOnce) {
+  std::string repeated;
+  for (int i = 0; i < 100; ++i)
+    repeated += "C: \"OO\",3,2\nC: \"OO\",5,3\nC: \"OP\",5,1, \"Lcl Translation\"\nC: \"OP\",6,5, \"d|X\"\n";
+  const RawScene scene = restored(repeated);
+  EXPECT_EQ(scene.animations[0].nodes[0].translation.values,
+            restored("").animations[0].nodes[0].translation.values);
+  EXPECT_EQ(scene.issues.size(), 1u);
+}
+
+TEST(FbxAnimation, CurvesAreNoLongerThanClips) {
+  Limits limits;
+  limits.clip = 1;
+  set_limits(limits);
+  EXPECT_EQ(restored("").issues[0].code, "curves-sampled");
+  limits.clip = 0;
+  set_limits(limits);
+  try {
+    restored("");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "FBX: a curve of 1 s, the limit is 0; --limit clip=N raises it");
+  }
+  set_limits({});
+}
+
 // 31 keys of 33 numbers each.
 TEST(FbxAnimation, MoreKeysThanTheLimitStayAsTheyAre) {
   Limits limits;
@@ -112,6 +140,8 @@ TEST(FbxAnimation, MoreKeysThanTheLimitStayAsTheyAre) {
   limits.keys = 30 * 33;
   set_limits(limits);
   EXPECT_EQ(left_alone(""), "curves-as-keys");
+  EXPECT_THAT(restored("").issues[0].message,
+              ::testing::HasSubstr("the limit is 990; --limit keys=N raises it"));
   set_limits({});
 }
 

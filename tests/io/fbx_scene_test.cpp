@@ -73,11 +73,26 @@ TEST(FbxScene, ObjectsAndLinks) {
   EXPECT_TRUE(parsed.scene.targets(77).empty());
 }
 
+TEST(FbxScene, AConnectionSaidTwiceIsOne) {
+  const Parsed parsed(with(kMesh, "C: \"OO\",2,1", "C: \"OO\",2,1\n C: \"OO\",2,1\n C: \"OP\",2,1, \"p\""));
+  EXPECT_EQ(parsed.scene.sources(1).size(), 2u);
+  EXPECT_EQ(parsed.scene.targets(2).size(), 3u);
+}
+
 TEST(FbxScene, RefusesWhatIsNotThere) {
   EXPECT_EQ(refusal(kMesh), "nothing was refused");
   EXPECT_EQ(refusal(with(kMesh, "0,1,-3", "0,1,-4")), "FBX: a face uses vertex 3 of 3");
   EXPECT_EQ(refusal(with(kMesh, "a: 0,2", "a: 0,3")), "FBX: cluster \"knee\" weights vertex 3 of 3");
   EXPECT_EQ(refusal(with(kMesh, "a: 0,2", "a: 0,-1")), "FBX: cluster \"knee\" weights vertex -1 of 3");
+  const std::string larger = R"(Geometry: 6, "Geometry::", "Mesh" {
+    Vertices: *12 { a: 0,0,0,1,0,0,0,1,0,1,1,0 }
+    PolygonVertexIndex: *3 { a: 0,1,-4 }
+  }
+  Deformer: 4,)";
+  const std::string two =
+      with(with(kMesh, "Deformer: 4,", larger), "C: \"OO\",5,4", "C: \"OO\",5,4\n C: \"OO\",4,6");
+  EXPECT_EQ(refusal(two), "nothing was refused");
+  EXPECT_EQ(refusal(with(two, "a: 0,2", "a: 0,3")), "FBX: cluster \"knee\" weights vertex 3 of 3");
 }
 
 TEST(FbxScene, RefusesANodeAboveItself) {
