@@ -34,7 +34,7 @@ Cells cells_at(const Lattice& lattice, const Vec3& p) {
 }
 
 double interpolate(const DistanceField& field, const Cells& cells) {
-  const auto& [x, y, z] = cells;
+  const Cell &x = cells[0], &y = cells[1], &z = cells[2];  // no binding: clang 14 cannot capture one
   const auto row = [&](int j, int k) -> double {
     const float* values = field.values.data() + field.lattice.index(0, j, k);
     return lerp(values[x.first], values[x.second], x.t);
