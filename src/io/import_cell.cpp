@@ -43,16 +43,17 @@ void on_fault(int number, siginfo_t* info, void*) {
   ::signal(number, SIG_DFL);  // the instruction is tried again, and ends the process
 }
 
-void watch_stack() {
+/// Returns the signal stack of before, which belongs to the thread again before it ends: a sanitizer frees it.
+stack_t watch_stack() {
   static char room[std::size_t{64} << 10];  // the handler cannot run on the stack that is full
-  stack_t other{};
+  stack_t other{}, before{};
   other.ss_sp = room;
   other.ss_size = sizeof room;
-  ::sigaltstack(&other, nullptr);
+  ::sigaltstack(&other, &before);
   pthread_attr_t attributes;
   void* begin = nullptr;
   std::size_t size = 0;
-  if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return;
+  if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return before;
   ::pthread_attr_getstack(&attributes, &begin, &size);
   ::pthread_attr_destroy(&attributes);
   stack_begin = reinterpret_cast<std::uintptr_t>(begin);
@@ -60,6 +61,7 @@ void watch_stack() {
   action.sa_sigaction = on_fault;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
   ::sigaction(SIGSEGV, &action, nullptr);
+  return before;
 }
 
 struct Work {
@@ -68,9 +70,10 @@ struct Work {
 };
 
 void* run_work(void* data) {
-  watch_stack();
+  const stack_t before = watch_stack();
   const auto* work = static_cast<Work*>(data);
   work->work(work->data);
+  ::sigaltstack(&before, nullptr);
   return nullptr;
 }
 
