@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <map>
 #include <optional>
 #include <string_view>
 
 #include "base/error.h"
+#include "io/dae_nodes.h"
 
 namespace skinforge {
 namespace {
@@ -47,14 +49,20 @@ std::vector<std::int64_t> integers(Text text) {
   return list;
 }
 
-/// Number of names in the source of that id; none when it is not found or says nothing.
-std::optional<std::int64_t> names_in(Text document, Text id) {
-  const auto source = first_between(document, "<source id=\"" + std::string(id) + "\"", "</source>");
-  if (!source) return std::nullopt;
-  for (const char* kind : {"<Name_array", "<IDREF_array"})
-    if (const auto tag = first_between(*source, kind, ">"))
-      if (const auto count = integers(attribute(*tag, "count")); !count.empty()) return count[0];
-  return std::nullopt;
+/// Numbers of names by the id of their source; the first source of an id counts.
+using NameCounts = std::map<Text, std::int64_t>;
+
+NameCounts count_names(Text document) {
+  NameCounts counts;
+  std::size_t at = 0;
+  while (const auto source = between(document, "<source id=\"", "</source>", at)) {
+    const Text id = source->substr(0, source->find('"'));
+    for (const char* kind : {"<Name_array", "<IDREF_array"})
+      if (const auto tag = first_between(*source, kind, ">"))
+        if (const auto count = integers(attribute(*tag, "count")); !count.empty())
+          counts.try_emplace(id, count[0]);
+  }
+  return counts;
 }
 
 /// The inputs of a weights element: where joints stand in it, and how many numbers an influence has.
@@ -77,17 +85,17 @@ Layout layout_of(Text weights) {
   return layout;
 }
 
-void check_weights(Text document, Text weights) {
+void check_weights(const NameCounts& names, Text weights) {
   const Layout layout = layout_of(weights);
   if (!layout.joint_source.starts_with('#')) return;
-  const auto joints = names_in(document, layout.joint_source.substr(1));
+  const auto joints = names.find(layout.joint_source.substr(1));
   const auto list = first_between(weights, "<v>", "</v>");
-  if (!joints || !list) return;
+  if (joints == names.end() || !list) return;
   const std::vector<std::int64_t> numbers = integers(*list);
   for (std::size_t i = layout.joint; i < numbers.size(); i += layout.stride)
-    if (numbers[i] < -1 || numbers[i] >= *joints)  // -1 is the bind shape
-      throw Error(ExitCode::BadInput,
-                  fmt::format("COLLADA: vertex_weights name joint {}, the skin has {}", numbers[i], *joints));
+    if (numbers[i] < -1 || numbers[i] >= joints->second)  // -1 is the bind shape
+      throw Error(ExitCode::BadInput, fmt::format("COLLADA: vertex_weights name joint {}, the skin has {}",
+                                                  numbers[i], joints->second));
 }
 
 }  // namespace
@@ -97,9 +105,11 @@ void check_dae(const InputFile& file, std::vector<Issue>& issues) {
   if (document.find("<!DOCTYPE") != Text::npos)
     issues.push_back({"doctype-ignored", Severity::Warning, "scene",
                       "the file has a document type; entities of it are not expanded"});
+  check_dae_nodes(document);
+  const NameCounts names = count_names(document);
   std::size_t at = 0;
   while (const auto weights = between(document, "<vertex_weights", "</vertex_weights>", at))
-    check_weights(document, *weights);
+    check_weights(names, *weights);
 }
 
 }  // namespace skinforge
