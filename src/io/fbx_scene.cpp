@@ -48,46 +48,78 @@ Quat euler(const Vec3& degrees_xyz, int order) {
 }
 
 /// Models that a model hangs under.
-std::vector<std::int64_t> parents_of(const FbxScene& scene, std::int64_t model) {
-  std::vector<std::int64_t> parents;
+std::vector<FbxScene::Link> parents_of(const FbxScene& scene, std::int64_t model) {
+  std::vector<FbxScene::Link> parents;
   for (const FbxScene::Link& link : scene.targets(model)) {
     const FbxNode* target = scene.object(link.object);
-    if (link.property.empty() && target && target->name == "Model") parents.push_back(link.object);
+    if (link.property.empty() && target && target->name == "Model") parents.push_back(link);
   }
   return parents;
 }
 
-/// Takes away models without parents until none is left, or only cycles and what hangs under them.
-void check_cycles(const FbxScene& scene) {
-  std::map<std::int64_t, std::vector<std::int64_t>> parents, children;
-  std::map<std::int64_t, std::size_t> left;  // parents not yet taken away
-  std::vector<std::int64_t> roots;
-  for (const std::int64_t model : scene.all("Model")) {
-    parents[model] = parents_of(scene, model);
-    for (const std::int64_t parent : parents[model]) children[parent].push_back(model);
-    if (parents[model].empty())
-      roots.push_back(model);
-    else
-      left[model] = parents[model].size();
-  }
-  while (!roots.empty()) {
-    const std::int64_t root = roots.back();
-    roots.pop_back();
-    for (const std::int64_t child : children[root])
-      if (--left[child] == 0) {
-        left.erase(child);
-        roots.push_back(child);
-      }
-  }
-  if (left.empty()) return;
-  std::int64_t here = left.begin()->first;
-  for (std::set<std::int64_t> path; path.insert(here).second;) {
-    const auto& above = parents[here];
-    here = *std::find_if(above.begin(), above.end(), [&](std::int64_t id) { return left.count(id) > 0; });
-  }
-  throw Error(ExitCode::BadInput,
-              fmt::format("FBX: node \"{}\" is its own ancestor", printable(scene.name(here))));
+/// How often a model stands at the root of the scene.
+double copies_at_root(const FbxScene& scene, std::int64_t model) {
+  for (const FbxScene::Link& link : scene.targets(model))
+    if (link.object == 0 && link.property.empty()) return static_cast<double>(link.times);
+  return 0;
 }
+
+/// Takes away models without parents until none is left, or only cycles and what hangs under them; counts the
+/// nodes that they become, as Assimp makes a copy of a model under each of its parents.
+class TreeCheck {
+ public:
+  explicit TreeCheck(const FbxScene& scene) : scene_(scene) {
+    for (const std::int64_t model : scene.all("Model")) {
+      copies_[model] = copies_at_root(scene, model);
+      parents_[model] = parents_of(scene, model);
+      for (const FbxScene::Link& parent : parents_[model])
+        children_[parent.object].push_back({model, {}, parent.times});
+      if (parents_[model].empty())
+        roots_.push_back(model);
+      else
+        left_[model] = parents_[model].size();
+    }
+  }
+
+  void run() {
+    double nodes = 0;
+    while (!roots_.empty()) {
+      const std::int64_t root = roots_.back();
+      roots_.pop_back();
+      nodes += copies_[root];
+      if (nodes > static_cast<double>(limits().nodes))
+        throw Error(ExitCode::BadInput,
+                    fmt::format("FBX: with node \"{}\" under each of its parents {} nodes, {}",
+                                printable(scene_.name(root)), nodes, limit_hint("nodes")));
+      for (const FbxScene::Link& child : children_[root]) {
+        copies_[child.object] += copies_[root] * static_cast<double>(child.times);
+        if (--left_[child.object] > 0) continue;
+        left_.erase(child.object);
+        roots_.push_back(child.object);
+      }
+    }
+    if (!left_.empty()) refuse_cycle();
+  }
+
+ private:
+  [[noreturn]] void refuse_cycle() {
+    std::int64_t here = left_.begin()->first;
+    for (std::set<std::int64_t> path; path.insert(here).second;) {
+      const auto& above = parents_[here];
+      here = std::find_if(above.begin(), above.end(), [&](const FbxScene::Link& parent) {
+               return left_.count(parent.object) > 0;
+             })->object;
+    }
+    throw Error(ExitCode::BadInput,
+                fmt::format("FBX: node \"{}\" is its own ancestor", printable(scene_.name(here))));
+  }
+
+  const FbxScene& scene_;
+  std::map<std::int64_t, std::vector<FbxScene::Link>> parents_, children_;
+  std::map<std::int64_t, double> copies_;
+  std::map<std::int64_t, std::size_t> left_;  ///< parents not yet taken away
+  std::vector<std::int64_t> roots_;
+};
 
 /// Returns the number of vertices.
 std::size_t check_geometry(const FbxNode& geometry) {
@@ -125,15 +157,22 @@ void check_cluster(const FbxScene& scene, std::int64_t cluster,
 FbxScene::FbxScene(const FbxNode& root) : root_(root) {
   if (const FbxNode* list = root.child("Objects"))
     for (const FbxNode& object : list->children) objects_.emplace(object.integer(0), &object);
-  std::set<std::tuple<std::int64_t, std::int64_t, std::string>> known;
-  if (const FbxNode* list = root.child("Connections"))
-    for (const FbxNode& c : list->children) {
-      if (c.values.size() < 3) continue;
-      const std::string property = c.text(0) == "OP" ? c.text(3) : "";
-      if (!known.emplace(c.integer(1), c.integer(2), property).second) continue;
-      sources_[c.integer(2)].push_back({c.integer(1), property});
-      targets_[c.integer(1)].push_back({c.integer(2), property});
+  const FbxNode* list = root.child("Connections");
+  std::map<std::tuple<std::int64_t, std::int64_t, std::string>, std::pair<std::size_t, std::size_t>> known;
+  for (std::size_t i = 0; list && i < list->children.size(); ++i) {
+    const FbxNode& c = list->children[i];
+    if (c.values.size() < 3) continue;
+    const std::string property = c.text(0) == "OP" ? c.text(3) : "";
+    auto &sources = sources_[c.integer(2)], &targets = targets_[c.integer(1)];
+    const auto [link, is_new] =
+        known.try_emplace({c.integer(1), c.integer(2), property}, sources.size(), targets.size());
+    if (is_new) {
+      sources.push_back({c.integer(1), property, 0});
+      targets.push_back({c.integer(2), property, 0});
     }
+    ++sources[link->second.first].times;
+    ++targets[link->second.second].times;
+  }
 }
 
 const FbxNode* FbxScene::object(std::int64_t id) const {
@@ -226,7 +265,7 @@ Transform FbxTransform::local(const Vec3& t, const Vec3& degrees_xyz, const Vec3
 }
 
 void check_fbx(const FbxScene& scene) {
-  check_cycles(scene);
+  TreeCheck(scene).run();
   std::map<std::int64_t, std::size_t> counts;
   for (const std::int64_t id : scene.all("Geometry"))
     if (const FbxNode& geometry = *scene.object(id); geometry.child("PolygonVertexIndex"))

@@ -12,8 +12,8 @@
 
 namespace skinforge {
 
-/// The objects of an FBX file and how they hang together. A connection that the file says again is not said
-/// again here: what follows connections takes the product of how many there are.
+/// The objects of an FBX file and how they hang together. A connection that the file says again is one here:
+/// what follows connections takes the product of how many there are.
 class FbxScene {
  public:
   /// Refers to `root`, which must outlive it.
@@ -21,7 +21,8 @@ class FbxScene {
 
   struct Link {
     std::int64_t object = 0;
-    std::string property;  ///< empty for object to object
+    std::string property;   ///< empty for object to object
+    std::size_t times = 1;  ///< that the file says it
   };
 
   /// The first object of that id; null when there is none.
@@ -65,9 +66,9 @@ struct FbxTransform {
   int order = 0;       ///< 0 XYZ, 1 XZY, 2 YZX, 3 YXZ, 4 ZXY, 5 ZYX: the first axis turns first
 };
 
-/// Refuses what Assimp reads silently or falls over: nodes that are their own ancestors, faces and clusters
-/// that name vertices which are not there, their arrays when damaged or not as long as they say, over ten
-/// million vertices. Throws Error (BadInput).
+/// Refuses what Assimp reads silently or falls over: nodes that are their own ancestors or become more than a
+/// scene may have, faces and clusters that name vertices which are not there, their arrays when damaged or
+/// not as long as they say, over ten million vertices. Throws Error (BadInput).
 void check_fbx(const FbxScene& scene);
 
 }  // namespace skinforge

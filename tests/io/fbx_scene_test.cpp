@@ -1,5 +1,6 @@
 #include "io/fbx_scene.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <memory>
@@ -76,7 +77,9 @@ TEST(FbxScene, ObjectsAndLinks) {
 TEST(FbxScene, AConnectionSaidTwiceIsOne) {
   const Parsed parsed(with(kMesh, "C: \"OO\",2,1", "C: \"OO\",2,1\n C: \"OO\",2,1\n C: \"OP\",2,1, \"p\""));
   EXPECT_EQ(parsed.scene.sources(1).size(), 2u);
-  EXPECT_EQ(parsed.scene.targets(2).size(), 3u);
+  ASSERT_EQ(parsed.scene.targets(2).size(), 3u);
+  EXPECT_EQ(parsed.scene.targets(2)[0].times, 2u);
+  EXPECT_EQ(parsed.scene.targets(2)[1].times, 1u);
 }
 
 TEST(FbxScene, RefusesWhatIsNotThere) {
@@ -101,6 +104,25 @@ TEST(FbxScene, RefusesANodeAboveItself) {
   EXPECT_EQ(refusal(with(kMesh, "\"OO\",1,0", "\"OO\",1,1")), message);
   EXPECT_EQ(refusal(with(kMesh, "\"OO\",4,3", "\"OO\",1,2")),
             message);  // beside the root, as a second parent
+}
+
+/// A chain in which each node hangs twice under the one above: the last is there 2^levels times.
+std::string doubling(int levels) {
+  std::string objects = "Objects: {\n", links = "Connections: {\n C: \"OO\",1,0\n";
+  for (int i = 1; i <= levels + 1; ++i)
+    objects += fmt::format(" Model: {}, \"Model::n{}\", \"\" {{ }}\n", i, i);
+  for (int i = 2; i <= levels + 1; ++i)
+    links += fmt::format(" C: \"OO\",{0},{1}\n C: \"OO\",{0},{1}\n", i, i - 1);
+  return objects + "}\n" + links + "}\n";
+}
+
+TEST(FbxScene, CopiesOfNodesAreAsManyAsAScenesAtMost) {
+  EXPECT_EQ(refusal(doubling(15)), "nothing was refused");  // 65535 nodes
+  const std::string message =
+      "FBX: with node \"n17\" under each of its parents 131071 nodes, the limit is 65536; --limit nodes=N "
+      "raises it";
+  EXPECT_EQ(refusal(doubling(16)), message);
+  EXPECT_EQ(refusal(doubling(1000)), message);
 }
 
 TEST(FbxScene, FrameRate) {
