@@ -57,10 +57,17 @@ int shadow_texels(const DrawOptions& options) {
   return std::clamp(static_cast<int>(wanted) / 4 * 4, 128, 1024);
 }
 
-void set_pixel(Raster& raster, int x, int y, const Vec3f& color) {
+constexpr std::uint8_t kOpaque = 255;
+
+void set_pixel(Raster& raster, int x, int y, const Vec3f& color, std::uint8_t alpha) {
   auto* pixel = raster.rgba.data() + 4 * (static_cast<std::size_t>(y) * raster.width + x);
   for (int k = 0; k < 3; ++k) pixel[k] = srgb_from_linear(color[k]);
-  pixel[3] = 255;
+  pixel[3] = alpha;
+}
+
+std::uint8_t coverage_code(const std::array<std::int32_t, kSamples>& owners) {
+  const auto covered = kSamples - std::count(owners.begin(), owners.end(), VisibilityTile::kNone);
+  return static_cast<std::uint8_t>(kOpaque * covered / kSamples);
 }
 
 /// Share of the sky found for 2 x 2 pixels, shared by the triangles that meet there.
@@ -143,16 +150,18 @@ void Painter::paint_tile(int x0, int y0, std::span<const std::int32_t> triangles
   std::array<SharedSky, VisibilityTile::kEdge / 2> shared;
   for (int y = y0; y < std::min(y0 + VisibilityTile::kEdge, raster.height); ++y) {
     if (y % 2 == 0) shared.fill({});
-    for (int x = x0; x < std::min(x0 + VisibilityTile::kEdge, raster.width); ++x)
-      set_pixel(raster, x, y,
-                pixel_color(tile.owners(x, y), x, y, shared[static_cast<std::size_t>((x - x0) / 2)]));
+    for (int x = x0; x < std::min(x0 + VisibilityTile::kEdge, raster.width); ++x) {
+      const auto& owners = tile.owners(x, y);
+      set_pixel(raster, x, y, pixel_color(owners, x, y, shared[static_cast<std::size_t>((x - x0) / 2)]),
+                options_.alpha_is_coverage ? coverage_code(owners) : kOpaque);
+    }
   }
 }
 
 void Painter::paint_backdrop(int x0, int y0, Raster& raster) const {
   for (int y = y0; y < std::min(y0 + VisibilityTile::kEdge, raster.height); ++y)
     for (int x = x0; x < std::min(x0 + VisibilityTile::kEdge, raster.width); ++x)
-      set_pixel(raster, x, y, backdrop(x + 0.5, y + 0.5));
+      set_pixel(raster, x, y, backdrop(x + 0.5, y + 0.5), options_.alpha_is_coverage ? 0 : kOpaque);
 }
 
 void Painter::draw(VisibilityTile& tile, std::int32_t index) const {

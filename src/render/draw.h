@@ -27,6 +27,7 @@ struct DrawOptions {
   Vec3 highlight_color = Vec3(0.9, 0.22, 0.04);  ///< linear RGB
   /// Linear RGB of the back of single-sided faces: shows what is inside out. None: not drawn, as engines do.
   std::optional<Vec3> back_face_color = {};
+  bool alpha_is_coverage = false;  ///< alpha: share of the pixel that the character covers; else opaque
 };
 
 /// The character as seen from `view`, over a pale backdrop: shaded in linear light (lighting.h), 16 samples a
