@@ -18,7 +18,7 @@ ALLOWED = {
     "skinning": {"base", "model", "skeleton", "geometry"},
     "deform": {"base", "model", "skeleton", "geometry", "skinning"},
     "animation": {"base", "model", "skeleton"},
-    "diff": {"base", "model", "skeleton", "geometry", "skinning", "animation"},
+    "diff": {"base", "model", "skeleton", "geometry", "skinning", "animation", "render"},
     "texture": {"base", "model", "geometry"},
     "render": {"base", "model", "geometry"},
     "recipe": {"base"},

@@ -7,6 +7,7 @@
 
 #include "diff/correspondence.h"
 #include "model/character.h"
+#include "render/picture_difference.h"
 
 /// What differs between two characters, A (the reference) and B. Lengths are shares of the diagonal of A's
 /// bounding box in the bind pose; diff.md says how each number is found.
@@ -27,18 +28,30 @@ struct StructureDiff {
   std::vector<std::string> edits;
 };
 
-/// Distances from the vertices of each side to the surface of the other, in both directions.
-struct GeometryDiff {
-  double max = 0, p99 = 0, mean = 0;
-  std::size_t unmatched_a = 0, unmatched_b = 0;  ///< vertices without a counterpart near them
-  double area_a = 0, area_b = 0;                 ///< square metres
+/// How far an attribute of corresponding corners differs.
+struct CornerDiff {
+  double max = 0, mean = 0;
+  std::string joint;         ///< heaviest of A at the corner with the largest
+  std::size_t compared = 0;  ///< corners
 };
 
-/// L1 distance of the weights of corresponding vertices, in [0, 2].
+struct GeometryDiff {
+  /// Distances from the vertices of each side to the surface of the other, in both directions.
+  double max = 0, p99 = 0, mean = 0;
+  std::size_t unmatched_a = 0, unmatched_b = 0;  ///< vertices without a counterpart near them
+  double unchanged = 1;                          ///< share of A's vertices that B has at the same place
+  double area_a = 0, area_b = 0;                 ///< square metres
+  double volume_a = 0, volume_b = 0;  ///< cubic metres; an open surface is closed to the middle of A's box
+  CornerDiff normals_deg;             ///< angle between normals, in [0, 180]
+  CornerDiff uvs;                     ///< distance of UVs, all sets; 1 is the edge of the texture
+};
+
 struct SkinDiff {
+  /// L1 distance of the weights of corresponding vertices, in [0, 2].
   double max = 0, mean = 0;
-  std::string joint;        ///< heaviest of A at the vertex with the largest
-  std::size_t changed = 0;  ///< vertices beyond 1/255, the step of 8-bit weights
+  std::string joint;                                    ///< heaviest of A at the vertex with the largest
+  std::size_t changed = 0;                              ///< vertices beyond 1/255, the step of 8-bit weights
+  std::vector<std::size_t> influences_a, influences_b;  ///< vertices that follow 0, 1, 2 ... joints
 };
 
 /// One clip that both sides have.
@@ -57,16 +70,32 @@ struct ClipDiff {
   std::vector<float> vertex_max;
 };
 
+/// One picture of both, by one camera.
+struct PictureDiff {
+  std::string camera;  ///< "front", "side", "three-quarter", "back"
+  std::string clip;    ///< empty: the bind pose
+  double time = 0;     ///< seconds
+  PictureDifference difference;
+  Raster a, b;  ///< empty unless they were asked for
+};
+
+/// "Gallop at 0.583 s, side", "the bind pose, front".
+std::string title_of(const PictureDiff& picture);
+
 struct CharacterDiff {
   double diagonal = 0;  ///< metres, of A
   Correspondence same;
   StructureDiff structure;
   GeometryDiff geometry;
   SkinDiff skin;
-  std::vector<ClipDiff> clips;  ///< in A's order
+  std::vector<ClipDiff> clips;        ///< in A's order
+  std::vector<PictureDiff> pictures;  ///< by `compare_pictures`; none where nobody asked for them
+  bool is_drawn_alike = false;        ///< there are none because no picture could differ (`draw_alike`)
 
   /// The clip with the largest error; null when there is none.
   const ClipDiff* worst_clip() const;
+  /// The picture of which most changed, of those alike the least similar; null when there is none.
+  const PictureDiff* worst_picture() const;
 };
 
 struct DiffOptions {
@@ -81,15 +110,18 @@ CharacterDiff compare_characters(const Character& a, const Character& b, const D
 /// What is still the same: shares of the diagonal, weights in [0, 2], seconds. Above it is a difference.
 struct DiffThresholds {
   double geometry = 1e-5;   ///< ours: ten times what 32-bit floats leave of a character of metres
+  double normals = 1;       ///< degrees; ours: twice what 8-bit normals leave
+  double uv = 1e-3;         ///< ours: a texel of a texture of 1024
   double weights = 0.01;    ///< ours: two steps of 8-bit weights
   double animation = 5e-4;  ///< ours: a millimetre on a man; the eye begins to see twice that
   double duration = 1e-3;   ///< ours: a sixteenth of a frame at 60 Hz
+  double picture = 1e-3;    ///< PictureDifference::changed; ours: a dozen pixels of a body
   bool structure = true;    ///< whether an edit of the structure is one
 };
 
 /// One verdict: what was measured against which threshold.
 struct DiffFinding {
-  std::string group;  ///< "structure", "geometry", "skin", "animation"
+  std::string group;  ///< "structure", "geometry", "skin", "animation", "picture"
   std::string name;   ///< "surface distance", "clip Gallop"
   std::string text;   ///< one sentence with values
   bool is_over = false;

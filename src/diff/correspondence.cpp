@@ -96,6 +96,13 @@ std::vector<VertexId> match_vertices(const Character& a, const Character& b,
   }
   return image;
 }
+
+std::vector<JointId> inverse(std::span<const JointId> b_of_a, std::size_t joints_of_b) {
+  std::vector<JointId> a_of_b(joints_of_b);
+  for (std::size_t j = 0; j < b_of_a.size(); ++j)
+    if (b_of_a[j].is_valid()) a_of_b[b_of_a[j].index()] = JointId(j);
+  return a_of_b;
+}
 }  // namespace
 
 double weight_distance(std::span<const Influence> a, std::span<const Influence> b,
@@ -127,6 +134,7 @@ Correspondence correspond(const Character& a, const Character& b) {
   Correspondence found;
   found.joints = match_joints(a, b);
   found.vertices = match_vertices(a, b, found.joints);
+  found.back = match_vertices(b, a, inverse(found.joints, b.skeleton.size()));
   return found;
 }
 

@@ -10,6 +10,8 @@ namespace skinforge {
 struct Correspondence {
   std::vector<JointId> joints;     ///< per joint of A: that of B; invalid when there is none
   std::vector<VertexId> vertices;  ///< per vertex of A: that of B; invalid when none is near
+  /// Per vertex of B: that of A, found in the same way; where several lie at one place not the inverse.
+  std::vector<VertexId> back = {};
 
   /// Joints of B that no joint of A stands for, rising.
   std::vector<JointId> joints_only_in(const Character& b) const;

@@ -58,6 +58,42 @@ std::string clips_text(const std::vector<ClipDiff>& clips) {
   return text;
 }
 
+std::string change_text(double a, double b) {
+  if (a == b || a == 0) return "";
+  return fmt::format(" ({:+.3g} %)", 100 * (b / a - 1));
+}
+
+std::string geometry_text(const GeometryDiff& g) {
+  return fmt::format(
+      "area {:.6g} -> {:.6g} m²{}, volume {:.6g} -> {:.6g} m³{}, {:.4g} % of the vertices unmoved\n",
+      g.area_a, g.area_b, change_text(g.area_a, g.area_b), g.volume_a, g.volume_b,
+      change_text(g.volume_a, g.volume_b), 100 * g.unchanged);
+}
+
+std::string influences_text(const std::vector<std::size_t>& counts) {
+  std::string text;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (counts[i] > 0) text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", i, counts[i]);
+  return text.empty() ? "none" : text;
+}
+
+std::string skin_text(const SkinDiff& skin) {
+  const std::string a = influences_text(skin.influences_a), b = influences_text(skin.influences_b);
+  return "vertices by joints they follow  " + (a == b ? a : a + "  ->  " + b) + "\n";
+}
+
+std::string pictures_text(const std::vector<PictureDiff>& pictures) {
+  if (pictures.empty()) return "";
+  std::string text = fmt::format("{:<42}{:>10}{:>12}{:>10}{:>10}\n", "pictures, % of the character",
+                                 "changed", "colour", "SSIM", "overlap");
+  for (const PictureDiff& picture : pictures) {
+    const PictureDifference& d = picture.difference;
+    text += fmt::format("  {:<40}{:>10.4g}{:>12.4g}{:>10.4f}{:>10.4g}\n", printable(title_of(picture)),
+                        100 * d.changed, 100 * d.mean_error, d.ssim, 100 * d.overlap);
+  }
+  return text;
+}
+
 json to_json(const CharacterCounts& counts) {
   json object = json::object();
   for (const Count& count : kCounts) {
@@ -82,6 +118,21 @@ json to_json(const ClipDiff& c) {
           {"keys_a", c.keys_a},
           {"keys_b", c.keys_b}};
 }
+
+json to_json(const CornerDiff& c) {
+  return {{"max", c.max}, {"mean", c.mean}, {"joint", c.joint}, {"compared", c.compared}};
+}
+
+json to_json(const PictureDiff& p) {
+  return {{"camera", p.camera},
+          {"clip", p.clip.empty() ? json() : json(p.clip)},
+          {"time", p.time},
+          {"title", title_of(p)},
+          {"changed", p.difference.changed},
+          {"mean_error", p.difference.mean_error},
+          {"ssim", p.difference.ssim},
+          {"overlap", p.difference.overlap}};
+}
 }  // namespace
 
 std::string to_text(const CharacterDiff& diff, const std::vector<DiffFinding>& findings) {
@@ -90,7 +141,8 @@ std::string to_text(const CharacterDiff& diff, const std::vector<DiffFinding>& f
   if (diff.geometry.unmatched_a + diff.geometry.unmatched_b > 0)
     text += fmt::format("  {} vertices of A and {} of B have no counterpart\n", diff.geometry.unmatched_a,
                         diff.geometry.unmatched_b);
-  text += clips_text(diff.clips);
+  text += geometry_text(diff.geometry) + skin_text(diff.skin);
+  text += clips_text(diff.clips) + pictures_text(diff.pictures);
   for (const DiffFinding& f : findings)
     text +=
         fmt::format("{} {}, {}: {}\n", f.is_over ? "!" : " ", f.group, printable(f.name), printable(f.text));
@@ -98,7 +150,8 @@ std::string to_text(const CharacterDiff& diff, const std::vector<DiffFinding>& f
 }
 
 json to_json(const CharacterDiff& diff, const std::vector<DiffFinding>& findings) {
-  json clips = json::array(), verdicts = json::array();
+  json clips = json::array(), verdicts = json::array(), pictures = json::array();
+  for (const PictureDiff& picture : diff.pictures) pictures.push_back(to_json(picture));
   for (const ClipDiff& clip : diff.clips) clips.push_back(to_json(clip));
   for (const DiffFinding& f : findings)
     verdicts.push_back({{"group", f.group}, {"name", f.name}, {"text", f.text}, {"is_over", f.is_over}});
@@ -112,14 +165,23 @@ json to_json(const CharacterDiff& diff, const std::vector<DiffFinding>& findings
         {"mean", diff.geometry.mean},
         {"unmatched_a", diff.geometry.unmatched_a},
         {"unmatched_b", diff.geometry.unmatched_b},
+        {"unchanged", diff.geometry.unchanged},
         {"area_a", diff.geometry.area_a},
-        {"area_b", diff.geometry.area_b}}},
+        {"area_b", diff.geometry.area_b},
+        {"volume_a", diff.geometry.volume_a},
+        {"volume_b", diff.geometry.volume_b},
+        {"normals_deg", to_json(diff.geometry.normals_deg)},
+        {"uvs", to_json(diff.geometry.uvs)}}},
       {"skin",
        {{"max", diff.skin.max},
         {"mean", diff.skin.mean},
         {"joint", diff.skin.joint},
-        {"changed", diff.skin.changed}}},
+        {"changed", diff.skin.changed},
+        {"vertices_by_influences_a", diff.skin.influences_a},
+        {"vertices_by_influences_b", diff.skin.influences_b}}},
       {"clips", std::move(clips)},
+      {"pictures", std::move(pictures)},
+      {"drawn_alike", diff.is_drawn_alike},
       {"findings", std::move(verdicts)}};
 }
 

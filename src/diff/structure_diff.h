@@ -5,13 +5,13 @@
 
 namespace skinforge {
 
-/// How many of everything a character has. `bytes` is passed through.
-CharacterCounts count(const Character& character, std::uint64_t bytes);
+/// How many of everything a character has; of its file nothing.
+CharacterCounts count(const Character& character);
 
 /// Keys of all tracks of a clip.
 std::size_t key_count(const Clip& clip);
 
-/// Counts of both sides (of the files: none), and what one has and the other has not.
+/// Counts of both sides, and what one has and the other has not.
 StructureDiff compare_structure(const Character& a, const Character& b, const Correspondence& same);
 
 }  // namespace skinforge

@@ -5,11 +5,12 @@
 
 namespace skinforge {
 
-/// Distance of the surfaces in the bind pose, as shares of `diagonal`; vertices without a counterpart.
+/// All of the geometry but what belongs to corners: distance of the surfaces in the bind pose, as shares of
+/// `diagonal`, vertices without a counterpart or at another place, area and volume.
 GeometryDiff compare_surfaces(const Character& a, const Character& b, const Correspondence& same,
                               double diagonal);
 
-/// Weights of corresponding vertices.
+/// Weights of corresponding vertices, and of how many joints they are.
 SkinDiff compare_weights(const Character& a, const Character& b, const Correspondence& same);
 
 /// Name of the joint with the largest weight at a vertex; empty when it has none.
