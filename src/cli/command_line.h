@@ -69,7 +69,9 @@ struct SkinningRequest {
 struct DiffRequest {
   std::string a, b;                     ///< model files; A is the reference
   std::vector<std::string> thresholds;  ///< "animation=0.05%"
-  std::string junit, html;              ///< files; empty: none
+  std::string junit, sarif, html;       ///< files; empty: none
+  std::string pictures;                 ///< folder; empty: none are written
+  bool without_pictures = false;        ///< draw none
   bool accept = false;                  ///< B becomes the reference
 };
 

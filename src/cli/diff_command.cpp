@@ -1,19 +1,27 @@
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "base/safe_name.h"
 #include "base/share_text.h"
 #include "base/text.h"
+#include "base/version.h"
 #include "cli/accept.h"
 #include "cli/commands.h"
 #include "cli/diff_page.h"
 #include "diff/diff_text.h"
+#include "io/export.h"
 #include "io/import.h"
 #include "pipeline/publish.h"
+#include "report/build_verdict.h"
 #include "report/junit.h"
+#include "stages/compared_pictures.h"
 
 namespace skinforge {
+namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
@@ -41,8 +49,16 @@ double limit_of(const std::string& text, const std::string& whole) {
 }
 
 DiffThresholds thresholds_of(const std::vector<std::string>& words) {
-  const std::vector<std::string> names = {"geometry", "weights", "animation", "duration", "structure"};
   DiffThresholds thresholds;
+  const std::map<std::string, double*> limits = {{"geometry", &thresholds.geometry},
+                                                 {"normals", &thresholds.normals},
+                                                 {"uv", &thresholds.uv},
+                                                 {"weights", &thresholds.weights},
+                                                 {"animation", &thresholds.animation},
+                                                 {"duration", &thresholds.duration},
+                                                 {"picture", &thresholds.picture}};
+  std::vector<std::string> names = {"structure"};
+  for (const auto& [name, limit] : limits) names.push_back(name);
   for (const std::string& word : words) {
     const auto equals = word.find('=');
     const std::string name = word.substr(0, equals);
@@ -51,14 +67,8 @@ DiffThresholds thresholds_of(const std::vector<std::string>& words) {
       thresholds.structure = value == "none";
     else if (name == "structure")
       throw Error(ExitCode::Usage, "--threshold structure: expected none (every edit counts) or any");
-    else if (name == "geometry")
-      thresholds.geometry = limit_of(value, word);
-    else if (name == "weights")
-      thresholds.weights = limit_of(value, word);
-    else if (name == "animation")
-      thresholds.animation = limit_of(value, word);
-    else if (name == "duration")
-      thresholds.duration = limit_of(value, word);
+    else if (const auto limit = limits.find(name); limit != limits.end())
+      *limit->second = limit_of(value, word);
     else
       throw Error(ExitCode::Usage, fmt::format("--threshold: nothing is called \"{}\"{}", printable(name),
                                                nearest_hint(name, names)));
@@ -73,21 +83,55 @@ std::string junit_of(const std::vector<DiffFinding>& findings) {
   return junit_xml(cases);
 }
 
+std::string sarif_of(const std::string& file, const std::vector<DiffFinding>& findings) {
+  std::vector<BuildVerdict> verdicts;
+  for (const DiffFinding& f : findings) {
+    if (!f.is_over) continue;
+    BuildVerdict& verdict = verdicts.emplace_back();
+    verdict.label = verdict.recipe = file;
+    verdict.code = ExitCode::Different;
+    verdict.error = fmt::format("{}, {}: {}", f.group, f.name, f.text);
+  }
+  return sarif(verdicts, kVersion);
+}
+
+// 01_bind_pose_front.png, 05_Gallop_0.583s_front.png ...
+void write_pictures(const std::string& folder, const std::vector<PictureDiff>& pictures, Console& console) {
+  std::error_code error;  // of a folder that cannot be made the first file tells
+  fs::create_directories(folder, error);
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const PictureDiff& picture = pictures[i];
+    const std::string moment = picture.clip.empty()
+                                   ? "bind_pose"
+                                   : fmt::format("{}_{:.3f}s", safe_file_name(picture.clip), picture.time);
+    write_output(fs::path(folder) / fmt::format("{:02}_{}_{}.png", i + 1, moment, picture.camera),
+                 encode_png(picture_of_difference(picture.a, picture.b, title_of(picture))));
+  }
+  console.info(fmt::format("{}: {} pictures", folder, pictures.size()));
+}
+
 }  // namespace
 
 ExitCode diff_command(const CommandLine& line, Console& console) {
   const DiffRequest& request = line.diff;
   const DiffThresholds thresholds = thresholds_of(request.thresholds);
   const Side a = read_side(request.a, console), b = read_side(request.b, console);
-  const CharacterDiff diff = compare_characters(
+  CharacterDiff diff = compare_characters(
       a.character, b.character,
       {.bytes_a = a.bytes.size(), .bytes_b = b.bytes.size(), .wants_vertices = !request.html.empty()});
+  const bool writes_pictures = !request.pictures.empty();
+  if (!request.without_pictures)
+    add_pictures(
+        a.character, b.character, diff,
+        {.keeps_drawings = writes_pictures || !request.html.empty(), .draws_always = writes_pictures});
   const std::vector<DiffFinding> findings = judge(diff, thresholds);
   const std::string text = to_text(diff, findings);
   if (!request.junit.empty()) {
     const std::string xml = junit_of(findings);
     write_output(request.junit, xml);
   }
+  if (!request.sarif.empty()) write_output(request.sarif, sarif_of(request.b, findings));
+  if (writes_pictures) write_pictures(request.pictures, diff.pictures, console);
   if (!request.html.empty()) {
     const std::string page = diff_page(request, a.character, b.character, diff, findings);
     write_output(request.html, page);

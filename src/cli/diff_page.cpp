@@ -12,6 +12,7 @@
 #include "html/html_page.h"
 #include "io/export.h"
 #include "io/glb_map.h"
+#include "io/image_codec.h"
 
 namespace skinforge {
 using nlohmann::json;
@@ -70,6 +71,17 @@ json json_of(const Errors& errors, const Correspondence& same, std::size_t verti
           {"a", base64(std::as_bytes(std::span(a)))},
           {"b", base64(std::as_bytes(std::span(b)))}};
 }
+
+// In the order of `diff.pictures`.
+std::vector<std::pair<std::string, Bytes>> drawings_of(const CharacterDiff& diff) {
+  constexpr int kQuality = 82;  // ours: JPEG; ten pictures stay below 300 kB
+  std::vector<std::pair<std::string, Bytes>> drawings;
+  for (const PictureDiff& picture : diff.pictures)
+    drawings.emplace_back(
+        title_of(picture),
+        encode_jpeg(picture_of_difference(picture.a, picture.b, title_of(picture)), kQuality));
+  return drawings;
+}
 }  // namespace
 
 std::string diff_page(const DiffRequest& request, const Character& a, const Character& b,
@@ -85,7 +97,7 @@ std::string diff_page(const DiffRequest& request, const Character& a, const Char
                 .title = name(request.a) + " / " + name(request.b) + " \u2013 SkinForge",
                 .json = {{"diff", data.dump(-1, ' ', false, json::error_handler_t::replace)}},
                 .files = {},
-                .pictures = {}};
+                .pictures = drawings_of(diff)};
   if (Bytes viewer = viewer_module(); !viewer.empty())
     page.files = {{"model", write_glb(a)}, {"model_b", write_glb(b)}, {"viewer", std::move(viewer)}};
   return html_page(page);

@@ -22,12 +22,14 @@ void VerbTree::add_model_verbs() {
 void VerbTree::add_diff_verb() {
   DiffRequest& request = line.diff;
   CLI::App* diff = add_verb(
-      &app, "diff", "Compare two models: structure, surface, weights, every clip (status 5)", Verb::Diff);
+      &app, "diff", "Compare two models: structure, surface, weights, every clip, pictures (status 5)",
+      Verb::Diff);
   diff->add_option("A", request.a, "Model to compare with")->required()->type_name("");
   diff->add_option("B", request.b, "Model to compare")->required()->type_name("");
   diff->add_option("--threshold", request.thresholds,
                    "What is still the same: geometry and animation in % of A's diagonal (0.001%, 0.05%), "
-                   "weights (0.01 of 2), duration (0.001 s), structure (none, or any edits)")
+                   "normals (1 degree), uv (0.1% of the texture), weights (0.01 of 2), duration (0.001 s), "
+                   "picture (0.1% of the character's pixels), structure (none, or any edits)")
       ->type_name("NAME=LIMIT")
       ->group("Verdict");
   diff->add_flag("--accept", request.accept, "Put B in the place of A, with a note beside it of what changed")
@@ -36,7 +38,17 @@ void VerbTree::add_diff_verb() {
                    "Write a page with both side by side, one camera and one clock, and where they differ")
       ->type_name("FILE")
       ->group("Output");
+  CLI::Option* pictures = diff->add_option("--pictures", request.pictures,
+                                           "Write the drawings side by side with what differs, as PNG")
+                              ->type_name("DIR")
+                              ->group("Output");
+  diff->add_flag("--no-pictures", request.without_pictures, "Draw nothing")
+      ->group("Verdict")
+      ->excludes(pictures);
   diff->add_option("--junit", request.junit, "Write the verdicts as JUnit XML, too")
+      ->type_name("FILE")
+      ->group("Output");
+  diff->add_option("--sarif", request.sarif, "Write what is over its limit as SARIF, too")
       ->type_name("FILE")
       ->group("Output");
   add_jobs_option(diff);

@@ -308,19 +308,23 @@ struct Expectations {
 };
 
 /// The character that the result is compared with ("expect.golden"), and what is still the same: shares of
-/// the golden's diagonal, weights in [0, 2], seconds, as `DiffThresholds` gives them.
+/// the golden's diagonal, of the texture and of the picture, weights in [0, 2], degrees, seconds, as
+/// `DiffThresholds` gives them.
 struct GoldenOptions {
   RecipePath file;  ///< a .glb
   double geometry = 1e-5;
+  double normals = 1;  ///< degrees
+  double uv = 1e-3;
   double weights = 0.01;
   double animation = 5e-4;
   double duration = 1e-3;
+  double picture = 1e-3;
   bool structure = true;  ///< whether any edit of the structure is a difference
 
   /// All but where the file lies.
   template <class Archive>
   friend void fields(Archive& a, GoldenOptions& g) {
-    a(g.geometry, g.weights, g.animation, g.duration, g.structure);
+    a(g.geometry, g.normals, g.uv, g.weights, g.animation, g.duration, g.picture, g.structure);
   }
 };
 

@@ -32,7 +32,7 @@ ExpectedRange read_range(const ValueReader& reader) {
   return range;
 }
 
-// A share of the diagonal: a number, or "0.05%".
+// A share of the diagonal, the texture or the picture: a number, or "0.05%".
 double read_share(const ValueReader& reader) {
   if (!reader.is_string()) return reader.number(0, kMaxShare);
   if (const auto share = parse_share(reader.value().text)) return *share;
@@ -51,13 +51,16 @@ GoldenOptions read_golden(const ValueReader& reader) {
     golden.file = golden_file(reader);
     return golden;
   }
-  const ObjectReader object =
-      reader.object({"file", "geometry", "weights", "animation", "duration", "structure"});
+  const ObjectReader object = reader.object(
+      {"file", "geometry", "normals", "uv", "weights", "animation", "duration", "picture", "structure"});
   golden.file = golden_file(object.at("file"));
   if (const auto geometry = object.find("geometry")) golden.geometry = read_share(*geometry);
+  if (const auto normals = object.find("normals")) golden.normals = normals->number(0, 180);
+  if (const auto uv = object.find("uv")) golden.uv = read_share(*uv);
   if (const auto weights = object.find("weights")) golden.weights = weights->number(0, 2);
   if (const auto animation = object.find("animation")) golden.animation = read_share(*animation);
   if (const auto duration = object.find("duration")) golden.duration = duration->number(0, kMaxLength);
+  if (const auto picture = object.find("picture")) golden.picture = read_share(*picture);
   if (const auto structure = object.find("structure"))
     golden.structure = structure->choice<bool>({{"none", true}, {"any", false}});
   return golden;

@@ -23,11 +23,10 @@ Json budget(const char* unit) {
   return {{"anyOf", {limit, range}}, {"unit", unit}};
 }
 
-// A share of the golden's diagonal: a number, or a percentage.
-Json share(double preset) {
+// A share of something: a number, or a percentage.
+Json share(double preset, const char* unit = "of the diagonal") {
   const Json percent = {{"type", "string"}, {"pattern", R"(^[0-9]+(\.[0-9]+)?%$)"}};
-  return with_default(
-      {{"anyOf", {{{"type", "number"}, {"minimum", 0}}, percent}}, {"unit", "of the diagonal"}}, preset);
+  return with_default({{"anyOf", {{{"type", "number"}, {"minimum", 0}}, percent}}, {"unit", unit}}, preset);
 }
 
 Json golden() {
@@ -40,12 +39,20 @@ Json golden() {
           {"file", described("The golden, a GLB, relative to the recipe.", file, {"golden/centaur.glb"})},
           {"geometry", described("Largest distance between the surfaces that is still the same.",
                                  share(preset.geometry), {"0.001%", 1e-5})},
+          {"normals", described("Largest angle between normals of corresponding corners.",
+                                with_default(number(0, 180, "degrees"), preset.normals), {2})},
+          {"uv", described("Largest distance of texture coordinates of corresponding corners.",
+                           share(preset.uv, "of the texture"), {"0.1%", 0.002})},
           {"weights", described("Largest change of a vertex's weights, summed over its joints.",
                                 with_default(number(0, 2, "ratio"), preset.weights), {0.02})},
           {"animation", described("Largest distance by which a clip may move a vertex otherwise.",
                                   share(preset.animation), {"0.05%", 5e-4})},
           {"duration", described("Largest change of a clip's length.",
                                  with_default(number(0, kMaxLength, "s"), preset.duration), {0.02})},
+          {"picture",
+           described("Largest share of the pixels of the character that are drawn otherwise, over all "
+                     "pictures.",
+                     share(preset.picture, "of the character"), {"0.5%", 0.01})},
           {"structure",
            described("Edits of names and counts that are still the same: none or any.",
                      with_default({{"type", "string"}, {"enum", {"none", "any"}}}, "none"), {"any"})},

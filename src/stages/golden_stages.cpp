@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "diff/diff_text.h"
+#include "stages/compared_pictures.h"
 #include "stages/expect_stage.h"
 #include "stages/golden_comparison.h"
 
@@ -14,9 +15,12 @@ namespace {
 
 DiffThresholds thresholds_of(const GoldenOptions& golden) {
   return {.geometry = golden.geometry,
+          .normals = golden.normals,
+          .uv = golden.uv,
           .weights = golden.weights,
           .animation = golden.animation,
           .duration = golden.duration,
+          .picture = golden.picture,
           .structure = golden.structure};
 }
 
@@ -33,7 +37,7 @@ class Compare final : public Stage {
 
   StageInfo info() const override {
     return {.name = "compare",
-            .version = 1,
+            .version = 2,
             .reads = {names_.glb(), names_.golden()},
             .writes = {names_.comparison()}};
   }
@@ -45,9 +49,10 @@ class Compare final : public Stage {
     const Bytes& made = in.get<Bytes>(names_.glb());
     comparison.is_missing = golden.empty();
     if (!golden.empty()) {
-      const Character a = character_of(in, names_.golden(), "golden.glb");
-      const CharacterDiff diff = compare_characters(a, character_of(in, names_.glb(), "output.glb"),
-                                                    {.bytes_a = golden.size(), .bytes_b = made.size()});
+      const Character a = character_of(in, names_.golden(), "golden.glb"),
+                      b = character_of(in, names_.glb(), "output.glb");
+      CharacterDiff diff = compare_characters(a, b, {.bytes_a = golden.size(), .bytes_b = made.size()});
+      add_pictures(a, b, diff);
       comparison.findings = judge(diff, thresholds_of(golden_));
       comparison.text = to_text(diff, comparison.findings);
     }

@@ -60,9 +60,12 @@ const std::vector<StageSetting> kSettings = {
     {"/expect/golden", {"report"}, true},
     {"/expect/golden/file", {"report"}, true},
     {"/expect/golden/geometry", {"compare"}},
+    {"/expect/golden/normals", {"compare"}},
+    {"/expect/golden/uv", {"compare"}},
     {"/expect/golden/weights", {"compare"}},
     {"/expect/golden/animation", {"compare"}},
     {"/expect/golden/duration", {"compare"}},
+    {"/expect/golden/picture", {"compare"}},
     {"/expect/golden/structure", {"compare"}},
 };
 

@@ -154,9 +154,12 @@ std::vector<Flip> flips() {
       {"/expect/clip_names", "/expect/clip_names", {"Walk"}},
       {"/expect/golden/file", "/expect/golden/file", "data/human.glb"},
       {"/expect/golden/geometry", "/expect/golden/geometry", "2%"},
+      {"/expect/golden/normals", "/expect/golden/normals", 5},
+      {"/expect/golden/uv", "/expect/golden/uv", 0.5},
       {"/expect/golden/weights", "/expect/golden/weights", 0.5},
       {"/expect/golden/animation", "/expect/golden/animation", 0.1},
       {"/expect/golden/duration", "/expect/golden/duration", 1},
+      {"/expect/golden/picture", "/expect/golden/picture", "5%"},
       {"/expect/golden/structure", "/expect/golden/structure", "any"},
   };
 }
@@ -258,9 +261,12 @@ TEST(GoldenOptions, AreThoseOfDiff) {
   const GoldenOptions golden;
   const DiffThresholds diff;
   EXPECT_EQ(golden.geometry, diff.geometry);
+  EXPECT_EQ(golden.normals, diff.normals);
+  EXPECT_EQ(golden.uv, diff.uv);
   EXPECT_EQ(golden.weights, diff.weights);
   EXPECT_EQ(golden.animation, diff.animation);
   EXPECT_EQ(golden.duration, diff.duration);
+  EXPECT_EQ(golden.picture, diff.picture);
   EXPECT_EQ(golden.structure, diff.structure);
 }
 

@@ -9,8 +9,11 @@ function diff_overview(diff) {
       : make('span', { class: 'tag good' }, 'the same within the limits')),
     make('div', { class: 'facts' },
       fact(error_text(diff.geometry.max), 'surface', 'largest distance of the surfaces in the bind pose, of the diagonal'),
+      fact(`${short_number(diff.geometry.normals_deg.max)}°`, 'normals', 'largest angle between normals of the same corner'),
       fact(short_number(diff.skin.max), 'weights', 'largest change of a vertex’s weights, of 2'),
       worst && fact(error_text(worst.max), `motion, in ${worst.clip}`, `at ${worst.time.toFixed(3)} s on ${worst.joint}`),
+      diff.pictures.length && fact(error_text(Math.max(...diff.pictures.map((p) => p.changed))), 'picture',
+        'largest share of the character’s pixels that changed'),
       fact(`× ${short_number(diff.structure.b.bytes / Math.max(1, diff.structure.a.bytes))}`, 'file size'),
       fact(`× ${short_number(diff.structure.b.keys / Math.max(1, diff.structure.a.keys))}`, 'keys')));
 }
@@ -41,13 +44,37 @@ function diff_clips_section(diff, play) {
   return { element: section('clips', 'Clips, in % of the diagonal', element), rows };
 }
 
+// What is counted and measured on both sides: { name, a, b }.
+function side_by_side(diff) {
+  const { structure: { a, b }, geometry, skin } = diff;
+  const rows = Object.keys(a).map((key) => ({ name: key.replaceAll('_', ' '), a: a[key], b: b[key] }));
+  const of_a = skin.vertices_by_influences_a, of_b = skin.vertices_by_influences_b;
+  for (let n = 0; n < Math.max(of_a.length, of_b.length); ++n)
+    if (of_a[n] || of_b[n]) rows.push({ name: `vertices that follow ${count_text(n, 'joint')}`, a: of_a[n] ?? 0, b: of_b[n] ?? 0 });
+  rows.push({ name: 'area, m²', a: geometry.area_a, b: geometry.area_b },
+    { name: 'volume, m³', a: geometry.volume_a, b: geometry.volume_b });
+  return rows;
+}
+
 function counts_section(diff) {
-  const { a, b, edits } = diff.structure;
-  const columns = [['', (key) => key.replaceAll('_', ' ')], ['A', (key) => grouped(a[key]), 'number'],
-    ['B', (key) => grouped(b[key]), 'number'],
-    ['', (key) => (a[key] === b[key] ? '' : a[key] ? `× ${short_number(b[key] / a[key])}` : 'new'), 'number']];
-  return section('structure', 'Structure', [table(columns, Object.keys(a), (key) => (a[key] === b[key] ? null : 'changed')),
+  const text = (n) => (Number.isInteger(n) ? grouped(n) : String(Number(n.toPrecision(6))));
+  const columns = [['', (row) => row.name], ['A', (row) => text(row.a), 'number'], ['B', (row) => text(row.b), 'number'],
+    ['', (row) => (row.a === row.b ? '' : row.a ? `× ${short_number(row.b / row.a)}` : 'new'), 'number']];
+  const { edits } = diff.structure;
+  return section('structure', 'Structure', [table(columns, side_by_side(diff), (row) => (row.a === row.b ? null : 'changed')),
+    make('p', { class: 'hint' }, `${short_number(100 * diff.geometry.unchanged)} % of the vertices are at the same place.`),
     edits.length ? make('ul', null, edits.map((edit) => make('li', null, edit))) : null]);
+}
+
+// The drawings with what differs, the most changed first.
+function drawings_section(diff, drawings) {
+  const figures = diff.pictures.map((picture, i) => ({ picture, source: drawings[i].source }))
+    .sort((x, y) => y.picture.changed - x.picture.changed)
+    .map(({ picture, source }) => make('figure', null, make('img', { src: source, alt: picture.title, loading: 'lazy' }),
+      make('figcaption', null, `${picture.title}: ${error_text(picture.changed)} of the character changed, colours differ by `
+        + `${error_text(picture.mean_error)} in the mean, SSIM ${picture.ssim.toFixed(4)}, outlines overlap by `
+        + error_text(picture.overlap))));
+  return section('pictures', 'Pictures', figures.length ? make('div', { class: 'figures pairs' }, figures) : null);
 }
 
 function bytes_of(text) {
@@ -102,6 +129,6 @@ function start_diff_page(page) {
   let parts = null;
   const clips = diff_clips_section(diff, (clip, time) => show_clip(parts, clip, time));
   page.append(...[diff_overview(diff), make('div', { id: 'viewer_place' }), findings_section(diff), clips.element,
-    counts_section(diff)].filter(Boolean));
+    drawings_section(diff, json_data('pictures')), counts_section(diff)].filter(Boolean));
   start_viewer((module) => open_diff_viewer(module, diff, clips.rows)).then((opened) => { parts = opened; });
 }
