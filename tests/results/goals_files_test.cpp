@@ -1,43 +1,21 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "io/import.h"
-#include "testing/assets.h"
-#include "testing/program.h"
-#include "testing/temporary_folder.h"
+#include "results/goal_test.h"
 
 // Goals of the build tool about files: valid output (10), a complete ledger (11), keys and size (12), faults
 // told (15).
 namespace skinforge {
 namespace {
-namespace fs = std::filesystem;
-using nlohmann::json;
+using namespace testing;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::Program;
-using testing::ProgramResult;
 
-class GoalsOfFiles : public ::testing::Test {
- protected:
-  ProgramResult call(const std::vector<std::string>& arguments) const {
-    return Program(SKINFORGE_BINARY, arguments, folder.path()).finish();
-  }
-  json answer(std::vector<std::string> arguments, int status = 0) const {
-    arguments.emplace_back("--json");
-    const ProgramResult result = call(arguments);
-    EXPECT_EQ(result.status, status) << result.err;
-    return json::parse(result.out, nullptr, false);
-  }
-
-  testing::TemporaryFolder folder;
-};
+class GoalsOfFiles : public GoalTest {};
+class GoalsOfFaults : public TailTest {};
 
 std::vector<fs::path> shared_models() {
   std::vector<fs::path> models;
@@ -256,25 +234,16 @@ std::vector<Fault> recipe_faults() {
 }
 
 // Thirty faults: each has its status, its id, one line with the place, and the cause.
-TEST_F(GoalsOfFiles, Goal15ThirtyFaultsAreTold) {
-  const json good = [&] {
-    json recipe = json::parse(std::ifstream(testing::repository_file("recipes/tail.json")));
-    for (auto& [name, file] : recipe.at("inputs").items()) {
-      fs::copy_file(fs::path(testing::repository_file("recipes")) / file.get<std::string>(),
-                    folder / (name + ".glb"));
-      file = name + ".glb";
-    }
-    return recipe;
-  }();
+TEST_F(GoalsOfFaults, Goal15ThirtyFaultsAreTold) {
   fs::copy_file(folder / "human.glb", folder / "short.glb");
   fs::resize_file(folder / "short.glb", 20000);
   std::ofstream(folder / "text.glb") << "no model";
   const auto faults = recipe_faults();
   EXPECT_GE(faults.size(), 30U);
   for (const Fault& fault : faults) {
-    json recipe = good;
-    fault.change(recipe);
-    std::ofstream(folder / "bad.json") << recipe.dump(1);
+    json bad = recipe;
+    fault.change(bad);
+    std::ofstream(folder / "bad.json") << bad.dump(1);
     const ProgramResult result = call({"check", "bad.json", "--cache", "cache", "--json"});
     EXPECT_EQ(result.status, fault.status) << fault.name << result.err;
     const json told = json::parse(result.out).at("recipes").at(0);

@@ -1,41 +1,19 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <set>
 
-#include "testing/assets.h"
-#include "testing/program.h"
-#include "testing/temporary_folder.h"
+#include "results/goal_test.h"
 
 // The goals of the build tool, one test each, by number.
 namespace skinforge {
 namespace {
-namespace fs = std::filesystem;
-using nlohmann::json;
+using namespace testing;
 using ::testing::HasSubstr;
-using testing::Program;
-using testing::ProgramResult;
 
-class Goals : public ::testing::Test {
+class Goals : public TailTest {
  protected:
-  // The tail of this repository, with its inputs beside it.
-  void SetUp() override {
-    recipe = json::parse(std::ifstream(testing::repository_file("recipes/tail.json")));
-    for (auto& [name, file] : recipe.at("inputs").items()) {
-      const fs::path from = fs::path(testing::repository_file("recipes")) / file.get<std::string>();
-      fs::copy_file(from, folder / (name + ".glb"));
-      file = name + ".glb";
-    }
-    write(recipe);
-  }
-  void write(const json& document) const { std::ofstream(folder / "tail.json") << document.dump(1); }
-
   ProgramResult call(std::vector<std::string> arguments) const {
     arguments.insert(arguments.end(), {"--cache", "cache"});
-    return Program(SKINFORGE_BINARY, arguments, folder.path()).finish();
+    return TailTest::call(arguments);
   }
   ProgramResult build() const {
     return call({"build", "tail.json", "--out", "out", "--report", "json", "--json"});
@@ -79,9 +57,6 @@ class Goals : public ::testing::Test {
     }
     for (const std::string& label : ran) EXPECT_TRUE(named.contains(label)) << label;
   }
-
-  testing::TemporaryFolder folder;
-  json recipe;
 };
 
 TEST_F(Goals, Goal07CommentsKeyOrderAndTimesMoveNothing) {
@@ -102,7 +77,7 @@ TEST_F(Goals, Goal08ExplainNamesWhatChanged) {
   ASSERT_EQ(build().status, 0);
   recipe.at("ops").at(0).at("place")["offset"] = {0, 0.2, 0.379};
   recipe["animation"] = {{"rate_hz", 24}};
-  write(recipe);
+  write();
   const json before = explain({"place"});
   const json* offset = change_of(before.at("stages"), "/ops/0/place/offset");
   ASSERT_NE(offset, nullptr) << before;
@@ -138,10 +113,10 @@ TEST_F(Goals, Goal08ExplainNamesFilesAndRuns) {
   fs::copy_file(testing::repository_file("data/griffin.glb"), folder / "griffin.glb",
                 fs::copy_options::overwrite_existing);
   recipe.at("ops").at(0).at("place")["scale"] = 0.8;
-  write(recipe);
+  write();
   ASSERT_EQ(build().status, 0);
   recipe.at("ops").at(0).at("place")["scale"] = 0.85;
-  write(recipe);
+  write();
   const json now = explain({"place"});
   const json* last = change_of(now.at("stages"), "/ops/0/place/scale");
   ASSERT_NE(last, nullptr);
@@ -258,81 +233,6 @@ TEST_F(Goals, Goal21ProvenanceIsVerified) {
                 fs::copy_options::overwrite_existing);
   EXPECT_THAT(verify("out/tail.glb", {"--recipe", "tail.json"}).err,
               HasSubstr("input \"griffin\": griffin.glb was "));
-}
-
-class Goal13 : public ::testing::Test {
- protected:
-  void SetUp() override { SKINFORGE_NEEDS_SHARED(); }
-
-  // A program of a npm package; empty where it is not installed.
-  static std::string npm_program(const std::string& name) {
-    const char* path = std::getenv("NODE_PATH");
-    for (const fs::path& folder :
-         {fs::path(path ? path : ""), fs::path(SKINFORGE_SOURCE_DIR) / "build/node/node_modules"})
-      if (fs::exists(folder / ".bin" / name)) return folder / ".bin" / name;
-    return {};
-  }
-  json diff(const std::string& other, int status = 5) const {
-    const ProgramResult result =
-        Program(SKINFORGE_BINARY, {"diff", horse, other, "--json"}, folder.path()).finish();
-    EXPECT_EQ(result.status, status) << result.err;
-    return json::parse(result.out);
-  }
-  static json worst_clip(const json& diff) {
-    json worst = {{"max", -1}};
-    for (const json& clip : diff.at("clips"))
-      if (clip.at("max") > worst.at("max")) worst = clip;
-    return worst;
-  }
-
-  const std::string horse = fs::absolute(testing::shared_file("assets/quaternius_horse/horse.glb"));
-  testing::TemporaryFolder folder;
-};
-
-// A "lossless" resample leaves out keys by a tolerance of each channel, which adds up along the limbs.
-TEST_F(Goal13, DiffFindsWhatALosslessResampleMoves) {
-  const std::string tool = npm_program("gltf-transform");
-  if (tool.empty())
-    GTEST_SKIP()
-        << "GLTF-TRANSFORM ABSENT: npm install @gltf-transform/cli into build/node, or set NODE_PATH";
-  ASSERT_EQ(
-      Program("/usr/bin/env", {"node", tool, "resample", horse, "b.glb"}, folder.path()).finish().status, 0);
-  const json worst = worst_clip(diff("b.glb"));
-  EXPECT_EQ(worst.at("clip"), "Idle_2");
-  EXPECT_NEAR(worst.at("max").get<double>(), 0.0109, 0.0002);
-}
-
-TEST_F(Goal13, DiffFindsWhatGltfpackMoves) {
-  const std::string tool = npm_program("gltfpack");
-  if (tool.empty()) GTEST_SKIP() << "GLTFPACK ABSENT: npm install gltfpack into build/node, or set NODE_PATH";
-  ASSERT_EQ(
-      Program("/usr/bin/env", {"node", tool, "-i", horse, "-o", "b.glb"}, folder.path()).finish().status, 0);
-  const json found = diff("b.glb"), worst = worst_clip(found);
-  EXPECT_EQ(worst.at("clip"), "Gallop");
-  EXPECT_NEAR(worst.at("max").get<double>(), 0.0267, 0.0003);
-  EXPECT_NEAR(worst.at("duration_b").get<double>() - worst.at("duration_a").get<double>(), 0.0167, 0.0001);
-  EXPECT_EQ(found.at("structure").at("edits").size(), 15U);  // joints without weights
-}
-
-TEST_F(Goal13, DiffOfAFileAndItselfIsNothing) {
-  const json same = diff(horse, 0);
-  EXPECT_EQ(worst_clip(same).at("max"), 0);
-  EXPECT_TRUE(same.at("structure").at("edits").empty());
-}
-
-TEST_F(Goal13, AcceptPutsTheNewFileInThePlaceOfTheOld) {
-  fs::copy_file(testing::shared_file("assets/quaternius_horse/horse.glb"), folder / "golden.glb");
-  fs::copy_file(testing::repository_file("data/horse.glb"), folder / "new.glb");
-  const auto run = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"diff", "golden.glb", "new.glb"});
-    return Program(SKINFORGE_BINARY, more, folder.path()).finish();
-  };
-  EXPECT_EQ(run({"--junit", "j.xml"}).status, 5);
-  EXPECT_TRUE(fs::exists(folder / "j.xml"));
-  EXPECT_EQ(run({"--accept"}).status, 0);
-  EXPECT_TRUE(fs::exists(folder / "golden.glb.change.md"));
-  EXPECT_EQ(run({}).status, 0);
-  EXPECT_EQ(run({"--threshold", "animatoin=1%"}).status, 2);
 }
 
 }  // namespace

@@ -1,49 +1,26 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "testing/assets.h"
-#include "testing/program.h"
-#include "testing/temporary_folder.h"
+#include "results/goal_test.h"
 
 // Goal 13 of the build tool inside a build: a golden in the recipe, its verdict and how it is accepted.
 namespace skinforge {
 namespace {
-namespace fs = std::filesystem;
-using nlohmann::json;
+using namespace testing;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
-using ::testing::Not;
-using testing::Program;
-using testing::ProgramResult;
 
-std::string read_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class Goal13Golden : public ::testing::Test {
+class Goal13Golden : public TailTest {
  protected:
-  // The tail with one clip and a golden; inputs beside it.
+  // With one clip and a golden.
   void SetUp() override {
-    recipe = json::parse(read_text(testing::repository_file("recipes/tail.json")));
-    for (auto& [name, file] : recipe.at("inputs").items()) {
-      fs::copy_file(fs::path(testing::repository_file("recipes")) / file.get<std::string>(),
-                    folder / (name + ".glb"));
-      file = name + ".glb";
-    }
+    TailTest::SetUp();
     recipe["animation"] = {{"clips", {"Walk"}}};
     recipe["expect"]["golden"] = "golden/tail.glb";
     write();
   }
-  void write() const { std::ofstream(folder / "tail.json") << recipe.dump(1); }
 
   ProgramResult build(std::vector<std::string> more = {}) const {
     more.insert(more.begin(), {"build", "tail.json", "--out", "out", "--cache", "cache", "--report", "json",
                                "--json", "--junit", "j.xml", "--sarif", "s.json"});
-    return Program(SKINFORGE_BINARY, more, folder.path()).finish();
+    return call(more);
   }
   static json first_recipe(const ProgramResult& result) {
     return json::parse(result.out).at("recipes").at(0);
@@ -60,14 +37,10 @@ class Goal13Golden : public ::testing::Test {
     return 1 + static_cast<std::size_t>(std::count(
                    whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(whole.find(text)), '\n'));
   }
-
-  json recipe;
-  testing::TemporaryFolder folder;
 };
 
 TEST_F(Goal13Golden, AMissingOneIsToldWithTheWayToMakeIt) {
-  const ProgramResult check =
-      Program(SKINFORGE_BINARY, {"check", "tail.json", "--cache", "cache"}, folder.path()).finish();
+  const ProgramResult check = call({"check", "tail.json", "--cache", "cache"});
   EXPECT_EQ(check.status, 0);
   EXPECT_THAT(check.err, HasSubstr("[golden-missing]"));
   const ProgramResult result = build();
@@ -136,7 +109,8 @@ TEST_F(Goal13Golden, ThresholdsStandInTheRecipe) {
   make_golden();
   change();
   recipe["expect"]["golden"] = {
-      {"file", "golden/tail.glb"}, {"geometry", "5%"}, {"animation", 0.05}, {"weights", 2}, {"duration", 1},
+      {"file", "golden/tail.glb"}, {"geometry", "5%"}, {"normals", 180}, {"uv", 1},
+      {"animation", 0.05},         {"weights", 2},     {"duration", 1},  {"picture", "20%"},
       {"structure", "any"}};
   write();
   const ProgramResult result = build();
@@ -172,16 +146,13 @@ TEST_F(Goal13Golden, NothingIsAcceptedOverBudget) {
 TEST_F(Goal13Golden, AnotherFileIsComparedAnew) {
   make_golden();
   fs::copy_file(folder / "human.glb", folder / "golden/tail.glb", fs::copy_options::overwrite_existing);
-  const auto call = [&](const std::string& verb) {
-    return Program(SKINFORGE_BINARY, {verb, "tail.json", "--cache", "cache", "--report", "json"},
-                   folder.path())
-        .finish()
-        .out;
+  const auto said = [&](const std::string& verb) {
+    return call({verb, "tail.json", "--cache", "cache", "--report", "json"}).out;
   };
-  EXPECT_THAT(call("plan"), ContainsRegex("run +compare"));
-  EXPECT_THAT(call("plan"), HasSubstr("hit   export"));
-  EXPECT_THAT(call("explain"), HasSubstr("file golden: "));
-  EXPECT_THAT(call("explain"), HasSubstr("tail.json:" + std::to_string(line_of("\"golden\""))));
+  EXPECT_THAT(said("plan"), ContainsRegex("run +compare"));
+  EXPECT_THAT(said("plan"), HasSubstr("hit   export"));
+  EXPECT_THAT(said("explain"), HasSubstr("file golden: "));
+  EXPECT_THAT(said("explain"), HasSubstr("tail.json:" + std::to_string(line_of("\"golden\""))));
   EXPECT_EQ(build().status, 5);
 }
 

@@ -100,7 +100,7 @@ TEST_F(Goal14, TwoModelsSideBySide) {
   const json seen = opened("diff", folder / "diff.html");
   if (seen.is_null()) GTEST_SKIP() << "CHROMIUM ABSENT: scripts/setup.sh --node installs it";
   expect_quiet(seen);
-  EXPECT_THAT(seen.at("sections"), ElementsAre("findings", "clips", "structure"));
+  EXPECT_THAT(seen.at("sections"), ElementsAre("findings", "clips", "pictures", "structure"));
   EXPECT_GT(seen.at("changed").at("error").get<double>(), kMoves);
 }
 

@@ -1,16 +1,9 @@
 // Polygons leave the tool as polygons: in the OBJ, by FB_ngon_encoding in the GLB, and in Blender.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
 #include "io/import.h"
-#include "nlohmann/json.hpp"
-#include "testing/assets.h"
-#include "testing/program.h"
-#include "testing/temporary_folder.h"
+#include "results/goal_test.h"
 
 namespace skinforge {
 namespace {
@@ -117,12 +110,7 @@ TEST_P(Polygons, ComeBackAsTheSame) {
 }
 
 TEST_P(Polygons, BlenderShowsTheSame) {
-  const ProgramResult run =
-      Program("/usr/bin/env",
-              {"blender", "-b", "--factory-startup", "-P",
-               testing::repository_file("tests/results/count_polygons.py"), "--", file("x.obj")},
-              folder_.path())
-          .finish();
+  const ProgramResult run = testing::run_blender("count_polygons.py", {file("x.obj")}, folder_.path());
   if (run.status == 127)
     GTEST_SKIP() << "NO BLENDER: the polygons of the OBJ were not seen by another program";
   ASSERT_EQ(run.status, 0) << run.out << run.err;
