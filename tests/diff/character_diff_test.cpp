@@ -111,6 +111,90 @@ TEST(CharacterDiff, MeasuresTheSurface) {
   EXPECT_NEAR(diff.geometry.area_a, 6, kRounding);
 }
 
+// A solid of three right angles at the origin with edges of 6 and, upwards, `height`; no bones.
+Character corner_piece(double height) {
+  Character c;
+  c.mesh.positions = {Vec3(0, 0, 0), Vec3(6, 0, 0), Vec3(0, 6, 0), Vec3(0, 0, height)};
+  for (const int v : {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}) c.mesh.corners.push_back(VertexId(v));
+  c.mesh.face_begin = {0, 3, 6, 9, 12};
+  c.mesh.face_material.assign(4, MaterialId());
+  c.mesh.face_part.assign(4, PartId(0));
+  c.mesh.normals.assign(12, Vec3::Zero());
+  c.mesh.parts = {{"solid", 0, false, false}};
+  for (int v = 0; v < 4; ++v) c.weights.push_row(std::vector<Influence>{});
+  return c;
+}
+
+// By hand: a sixth of the box, 36 m3 and 42 m3; three sides of half a square and, slanted, sqrt(3) / 4 * 72;
+// of four vertices one has moved.
+TEST(CharacterDiff, MeasuresAreaAndVolume) {
+  const Character a = corner_piece(6), b = corner_piece(7);
+  const GeometryDiff found = compare_characters(a, b).geometry;
+  EXPECT_NEAR(found.volume_a, 36, kRounding);
+  EXPECT_NEAR(found.volume_b, 42, kRounding);
+  EXPECT_NEAR(found.area_a, 3 * 18 + 18 * std::sqrt(3), kRounding);
+  EXPECT_EQ(found.unchanged, 0.75);
+  EXPECT_EQ(found.unmatched_a, 1U);
+  EXPECT_EQ(found.normals_deg.compared, 0U);  // there are none
+}
+
+// A face that is gone leaves every vertex on the surface: only counting finds the hole.
+TEST(CharacterDiff, CountsWhatDistancesDoNotShow) {
+  const Character a = corner_piece(6);
+  Character b = a;
+  b.mesh.corners.resize(9);
+  b.mesh.normals.resize(9);
+  b.mesh.face_begin.pop_back();
+  b.mesh.face_material.pop_back();
+  b.mesh.face_part.pop_back();
+  const CharacterDiff diff = compare_characters(a, b);
+  EXPECT_EQ(diff.geometry.max, 0);
+  EXPECT_THAT(diff.structure.edits, ElementsAre("3 triangles, there were 4", "3 open edges, there were 0"));
+  EXPECT_TRUE(is_over(judge(diff, {})));
+}
+
+// Law: between characters of one box it does not matter which is A.
+TEST(CharacterDiff, IsSymmetric) {
+  const Character a = ToyCharacter::make();
+  Character b = a;
+  b.mesh.positions[7] += Vec3(-0.001, 0.001, 0);
+  b.mesh.normals[3] = Vec3(0.6, 0, 0.8);
+  b.mesh.uvs[0][11] += Vec2(0.25, 0);
+  std::swap(b.weights.influences[0].weight, b.weights.influences[1].weight);
+  const CharacterDiff there = compare_characters(a, b), back = compare_characters(b, a);
+  EXPECT_GT(there.geometry.max, 0);
+  EXPECT_NEAR(there.geometry.max, back.geometry.max, kRounding);
+  EXPECT_NEAR(there.geometry.mean, back.geometry.mean, kRounding);
+  EXPECT_NEAR(there.geometry.unchanged, back.geometry.unchanged, kRounding);
+  EXPECT_GT(there.geometry.normals_deg.max, 0);
+  EXPECT_NEAR(there.geometry.normals_deg.max, back.geometry.normals_deg.max, kRounding);
+  EXPECT_NEAR(there.geometry.normals_deg.mean, back.geometry.normals_deg.mean, kRounding);
+  EXPECT_NEAR(there.geometry.uvs.max, 0.25, kRounding);
+  EXPECT_NEAR(there.geometry.uvs.max, back.geometry.uvs.max, kRounding);
+  EXPECT_GT(there.skin.max, 0);
+  EXPECT_NEAR(there.skin.max, back.skin.max, kRounding);
+  for (std::size_t c = 0; c < there.clips.size(); ++c)
+    EXPECT_NEAR(there.clips[c].max, back.clips[c].max, kRounding) << there.clips[c].clip;
+}
+
+// What is over its limit is told as such, and nothing else.
+TEST(CharacterDiff, JudgesNormalsAndUvs) {
+  const Character a = ToyCharacter::make();
+  Character b = a;
+  b.mesh.normals[5] = -b.mesh.normals[5];
+  const auto over = [&](const DiffThresholds& thresholds) {
+    std::vector<std::string> names;
+    for (const DiffFinding& f : judge(compare_characters(a, b), thresholds))
+      if (f.is_over) names.push_back(f.name);
+    return names;
+  };
+  EXPECT_THAT(over({}), ElementsAre("normals"));
+  EXPECT_THAT(over({.normals = 180}), IsEmpty());
+  b.mesh.uvs[0][7].x() += 0.01;
+  EXPECT_THAT(over({}), ElementsAre("normals", "UVs"));
+  EXPECT_THAT(over({.normals = 180, .uv = 0.02}), IsEmpty());
+}
+
 TEST(CharacterDiff, MeasuresWeights) {
   const Character a = ToyCharacter::make();
   Character b = a;

@@ -1,19 +1,13 @@
-#include <gtest/gtest.h>
+#include <fmt/format.h>
 
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "testing/assets.h"
-#include "testing/program.h"
-#include "testing/temporary_folder.h"
+#include "results/goal_test.h"
 
 // Same input, same bytes: pictures, meshes and fields too.
 namespace skinforge {
 namespace {
-namespace fs = std::filesystem;
-using nlohmann::json;
-using testing::Program;
+using namespace testing;
 
 // Relative name -> content of every file but the timings and the page, which tell of this run.
 std::map<std::string, std::string> contents(const fs::path& folder) {
@@ -21,37 +15,29 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
   for (const auto& item : fs::recursive_directory_iterator(folder)) {
     const fs::path name = item.path().filename();
     if (!item.is_regular_file() || name == "timings.json" || name == "report.html") continue;
-    std::ifstream file(item.path(), std::ios::binary);
-    files[fs::relative(item.path(), folder)] = {std::istreambuf_iterator<char>(file), {}};
+    files[fs::relative(item.path(), folder)] = read_text(item.path());
   }
   return files;
 }
 
-class Determinism : public ::testing::Test {
+class Determinism : public TailTest {
  protected:
-  // The tail of this repository with every kind of output.
+  // With every kind of output.
   void SetUp() override {
-    json recipe = json::parse(std::ifstream(testing::repository_file("recipes/tail.json")));
-    for (auto& [name, file] : recipe.at("inputs").items()) {
-      const fs::path from = fs::path(testing::repository_file("recipes")) / file.get<std::string>();
-      fs::copy_file(from, folder / (name + ".glb"));
-      file = name + ".glb";
-    }
+    TailTest::SetUp();
     recipe["output"] = {{"glb", "tail.glb"}, {"obj", "tail.obj"}, {"vdb", "tail.vdb"}};
-    std::ofstream(folder / "tail.json") << recipe;
+    write();
   }
 
-  void build(const fs::path& from, const std::string& recipe, const std::string& out,
+  void build(const fs::path& from, const std::string& file, const std::string& out,
              const std::string& jobs) const {
     const auto run = Program(SKINFORGE_BINARY,
-                             {"build", recipe, "--quiet", "--out", folder / out, "--cache",
+                             {"build", file, "--quiet", "--out", folder / out, "--cache",
                               folder / (out + "-cache"), "-j", jobs},
                              from)
                          .finish();
     ASSERT_EQ(run.status, 0) << run.err;
   }
-
-  testing::TemporaryFolder folder;
 };
 
 TEST_F(Determinism, Goal05EveryFileHasTheSameBytes) {
@@ -66,6 +52,31 @@ TEST_F(Determinism, Goal05EveryFileHasTheSameBytes) {
     ASSERT_TRUE(two.contains(name)) << name;
     EXPECT_TRUE(bytes == two.at(name)) << name;
   }
+}
+
+// Three runs, by one, two and eight threads, from two folders, in two languages: one result.
+TEST_F(Determinism, Goal05ManyRunsAreOne) {
+  fs::create_directories(folder / "elsewhere");
+  std::map<std::string, std::string> first;
+  for (const char* run : {"1", "2", "3"})
+    for (const char* jobs : {"1", "2", "8"})
+      for (const std::string up : {"", "../"})
+        for (const char* language : {"C", "de_DE.UTF-8"}) {
+          SCOPED_TRACE(fmt::format("run {}, -j{}, {}tail.json, {}", run, jobs, up, language));
+          const ProgramResult result =
+              Program(SKINFORGE_BINARY,
+                      {"build", up + "tail.json", "--quiet", "--report", "json", "--out", up + "out",
+                       "--cache", up + "cache", "-j", jobs},
+                      up.empty() ? folder.path() : folder / "elsewhere", {{"LC_ALL", language}})
+                  .finish();
+          ASSERT_EQ(result.status, 0) << result.err;
+          const auto made = contents(folder / "out");
+          if (first.empty()) first = made;
+          ASSERT_TRUE(made == first);
+          fs::remove_all(folder / "out");
+          fs::remove_all(folder / "cache");
+        }
+  EXPECT_TRUE(first.contains("tail.glb"));
 }
 
 // Rule 18: number of threads, folder of the call, language, time zone, home, umask, layout of memory.

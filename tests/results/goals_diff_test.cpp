@@ -6,6 +6,7 @@
 namespace skinforge {
 namespace {
 using namespace testing;
+using ::testing::HasSubstr;
 
 class Goal13 : public GoalTest {
  protected:
@@ -19,6 +20,13 @@ class Goal13 : public GoalTest {
     return worst;
   }
 
+  static json most_changed(const json& diff) {
+    json most = {{"changed", -1}};
+    for (const json& picture : diff.at("pictures"))
+      if (picture.at("changed") > most.at("changed")) most = picture;
+    return most;
+  }
+
   const std::string horse = fs::absolute(testing::shared_file("assets/quaternius_horse/horse.glb"));
 };
 
@@ -30,9 +38,13 @@ TEST_F(Goal13, DiffFindsWhatALosslessResampleMoves) {
         << "GLTF-TRANSFORM ABSENT: npm install @gltf-transform/cli into build/node, or set NODE_PATH";
   ASSERT_EQ(
       Program("/usr/bin/env", {"node", tool, "resample", horse, "b.glb"}, folder.path()).finish().status, 0);
-  const json worst = worst_clip(diff("b.glb"));
+  const json found = diff("b.glb"), worst = worst_clip(found), picture = most_changed(found);
   EXPECT_EQ(worst.at("clip"), "Idle_2");
   EXPECT_NEAR(worst.at("max").get<double>(), 0.0109, 0.0002);
+  EXPECT_EQ(picture.at("clip"), "Idle_2");
+  EXPECT_EQ(picture.at("time"), worst.at("time"));
+  EXPECT_GT(picture.at("changed").get<double>(), 0.2);
+  EXPECT_LT(picture.at("ssim").get<double>(), 0.7);
 }
 
 TEST_F(Goal13, DiffFindsWhatGltfpackMoves) {
@@ -45,6 +57,7 @@ TEST_F(Goal13, DiffFindsWhatGltfpackMoves) {
   EXPECT_NEAR(worst.at("max").get<double>(), 0.0267, 0.0003);
   EXPECT_NEAR(worst.at("duration_b").get<double>() - worst.at("duration_a").get<double>(), 0.0167, 0.0001);
   EXPECT_EQ(found.at("structure").at("edits").size(), 15U);  // joints without weights
+  EXPECT_EQ(most_changed(found).at("title"), "Gallop at 0.583 s, side");
 }
 
 TEST_F(Goal13, DiffOfAFileAndItselfIsNothing) {
@@ -66,6 +79,7 @@ TEST_F(Goal13, DiffFindsOnlyBulkInABlenderRoundTrip) {
   EXPECT_TRUE(found.at("structure").at("edits").empty()) << found.at("structure").at("edits");
   const json &a = found.at("structure").at("a"), &b = found.at("structure").at("b");
   const auto times = [&](const char* what) { return b.at(what).get<double>() / a.at(what).get<double>(); };
+  EXPECT_EQ(most_changed(found).at("changed"), 0);
   EXPECT_NEAR(times("keys"), 4.7, 0.2);
   EXPECT_NEAR(times("bytes"), 2.8, 0.1);
 }
@@ -87,7 +101,7 @@ TEST_F(Goal13, PicturesShowWhatDistancesDoNot) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return answer(arguments, status);
   };
-  const json found = compare({"--pictures", "drawn", "--sarif", "s.json"}, 5);
+  const json found = compare({"--pictures", "drawn", "--sarif", "s.json", "--junit", "j.xml"}, 5);
   for (const json& finding : found.at("findings"))
     EXPECT_EQ(finding.at("is_over"), finding.at("group") == "picture") << finding;
   EXPECT_EQ(found.at("pictures").size(), 9U);
@@ -98,6 +112,8 @@ TEST_F(Goal13, PicturesShowWhatDistancesDoNot) {
   ASSERT_EQ(sarif.size(), 1U);
   EXPECT_EQ(sarif.at(0).at("ruleId"), "different");
   EXPECT_EQ(sarif.at(0).at("/locations/0/physicalLocation/artifactLocation/uri"_json_pointer), "b.glb");
+  EXPECT_THAT(read_text(folder / "j.xml"), HasSubstr("failures=\"1\""));
+  EXPECT_THAT(read_text(folder / "j.xml"), HasSubstr("name=\"picture, pictures\""));
   EXPECT_TRUE(compare({"--no-pictures"}, 0).at("pictures").empty());
   compare({"--threshold", "picture=100%"}, 0);
   EXPECT_EQ(call({"diff", "a.glb", "b.glb", "--no-pictures", "--pictures", "x"}).status, 2);
