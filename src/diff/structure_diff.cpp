@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/hash.h"
+#include "diff/topology_diff.h"
 #include "geometry/mesh_measures.h"
 
 namespace skinforge {
@@ -101,17 +102,6 @@ std::vector<std::string> attribute_sets(const Character& character) {
   }
   return {sets.begin(), sets.end()};
 }
-
-// What distances do not show: a face that is gone from the middle of others leaves every vertex where it was.
-void compare_topology(const CharacterCounts& a, const CharacterCounts& b, std::vector<std::string>& edits) {
-  const auto compare = [&](const char* what, std::size_t of_a, std::size_t of_b) {
-    if (of_a != of_b) edits.push_back(fmt::format("{} {}, there were {}", of_b, what, of_a));
-  };
-  compare("triangles", a.triangles, b.triangles);
-  compare("components", a.components, b.components);
-  compare("open edges", a.open_edges, b.open_edges);
-  compare("non-manifold edges", a.non_manifold_edges, b.non_manifold_edges);
-}
 }  // namespace
 
 CharacterCounts count(const Character& character) {
@@ -146,7 +136,8 @@ StructureDiff compare_structure(const Character& a, const Character& b, const Co
   compare_names("image", image_digests(a), image_digests(b), diff.edits);
   compare_names("morph target", names_of(a.morphs), names_of(b.morphs), diff.edits);
   compare_names("attribute", attribute_sets(a), attribute_sets(b), diff.edits);
-  compare_topology(diff.a, diff.b, diff.edits);
+  for (std::string& edit : compare_topology(a, b, same, diff.a, diff.b))
+    diff.edits.push_back(std::move(edit));
   return diff;
 }
 

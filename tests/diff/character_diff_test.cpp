@@ -153,6 +153,24 @@ TEST(CharacterDiff, CountsWhatDistancesDoNotShow) {
   EXPECT_TRUE(is_over(judge(diff, {})));
 }
 
+// Another program may weld less: two triangles that shared an edge have one each at the same place. That is
+// no edit; a gap between them is.
+TEST(CharacterDiff, WeldingIsNoEdit) {
+  const Character a = corner_piece(6);
+  Character b = a;
+  for (const std::size_t corner : {9, 10, 11}) {  // the slanted face on vertices of its own
+    b.mesh.positions.push_back(a.mesh.positions[a.mesh.corners[corner].index()]);
+    b.mesh.corners[corner] = VertexId(b.mesh.positions.size() - 1);
+    b.weights.push_row(std::vector<Influence>{});
+  }
+  EXPECT_EQ(compare_characters(a, b).structure.b.open_edges, 6U);
+  EXPECT_THAT(compare_characters(a, b).structure.edits, IsEmpty());
+  EXPECT_THAT(compare_characters(b, a).structure.edits, IsEmpty());
+  for (std::size_t v = 4; v < 7; ++v) b.mesh.positions[v] += Vec3(1, 1, 1);
+  EXPECT_THAT(compare_characters(a, b).structure.edits,
+              ElementsAre("2 components, there were 1", "6 open edges, there were 0"));
+}
+
 // Law: between characters of one box it does not matter which is A.
 TEST(CharacterDiff, IsSymmetric) {
   const Character a = ToyCharacter::make();
