@@ -1,6 +1,7 @@
 #include "io/glb_animations.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace skinforge {
 namespace {
@@ -42,11 +43,13 @@ FloatKeys float_keys(const Track<Value>& track, double start) {
   return keys;
 }
 
-/// Time of the first key if that is negative, else 0.
-double start_of(const Clip& clip) {
-  double start = 0;
+/// Times of the first and the last key, 0 among them.
+std::pair<double, double> span_of(const Clip& clip) {
+  double first = 0, last = 0;
   const auto take = [&](const auto& track) {
-    if (!track.is_empty()) start = std::min(start, track.times.front());
+    if (track.is_empty()) return;
+    first = std::min(first, track.times.front());
+    last = std::max(last, track.times.back());
   };
   for (const JointTracks& tracks : clip.joints) {
     take(tracks.translation);
@@ -54,7 +57,7 @@ double start_of(const Clip& clip) {
     take(tracks.scale);
   }
   for (const MorphTracks& tracks : clip.morphs) take(tracks.weights);
-  return start;
+  return {first, last};
 }
 
 const char* name_of(Interpolation interpolation) {
@@ -70,7 +73,7 @@ class ClipWriter {
 
   void write(const Clip& clip) {
     channels_.clear();
-    const double start = start_of(clip);
+    const auto [start, end] = span_of(clip);
     for (const JointTracks& tracks : clip.joints) {
       add(tracks.joint.index(), "translation", "VEC3", tracks.translation, start);
       add(tracks.joint.index(), "rotation", "VEC4", tracks.rotation, start);
@@ -79,7 +82,8 @@ class ClipWriter {
     for (const MorphTracks& tracks : clip.morphs)
       if (const auto node = morph_nodes_.find(tracks.part); node != morph_nodes_.end())
         add(node->second, "weights", "SCALAR", tracks.weights, start);
-    if (channels_.empty()) add(0, "translation", "VEC3", resting_root(clip), start);
+    constexpr double kRounding = 1e-6;  // ours: seconds
+    if (channels_.empty() || end < clip.duration - kRounding) add_hold(clip, start);
     write_object(clip);
   }
 
@@ -103,11 +107,21 @@ class ClipWriter {
     channels_.push_back({node, path, input, output, keys.interpolation});
   }
 
-  Vec3Track resting_root(const Clip& clip) const {
-    const Vec3& rest = character_.skeleton.joints.front().bind.translation;
-    Vec3Track track{Interpolation::Linear, {0}, {rest}};
-    if (clip.duration > 0) track = {Interpolation::Linear, {0, clip.duration}, {rest, rest}};
-    return track;
+  // A clip without a key at its end would be over before: the first property that it leaves alone is held as
+  // it is for as long as the clip lasts.
+  void add_hold(const Clip& clip, double start) {
+    const auto held = [&](const Vec3& value) {
+      if (clip.duration > 0) return Vec3Track{Interpolation::Linear, {0, clip.duration}, {value, value}};
+      return Vec3Track{Interpolation::Linear, {0}, {value}};
+    };
+    for (std::size_t j = 0; j < character_.skeleton.size(); ++j) {
+      const auto tracks = std::find_if(clip.joints.begin(), clip.joints.end(),
+                                       [&](const JointTracks& t) { return t.joint == JointId(j); });
+      const Transform& bind = character_.skeleton.joints[j].bind;
+      if (tracks == clip.joints.end() || tracks->translation.is_empty())
+        return add(j, "translation", "VEC3", held(bind.translation), start);
+      if (tracks->scale.is_empty()) return add(j, "scale", "VEC3", held(bind.scale), start);
+    }
   }
 
   void write_object(const Clip& clip) {

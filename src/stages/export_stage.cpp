@@ -43,7 +43,7 @@ class Export final : public Stage {
 
   StageInfo info() const override {
     StageInfo info{.name = "export",
-                   .version = 2,
+                   .version = 3,
                    .reads = joined(contents_names(names_, inputs_),
                                    {names_.textured(), names_.graft(), names_.surface()}),
                    .writes = {names_.result(), names_.glb(), names_.obj()}};

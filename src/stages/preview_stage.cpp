@@ -50,7 +50,7 @@ class Preview final : public Stage {
 
   StageInfo info() const override {
     return {.name = "preview",
-            .version = 1,
+            .version = 2,
             .reads = joined(character_names(names_, inputs_),
                             {names_.placement(), names_.graft(), names_.joint_maps()}),
             .writes = {names_.preview_glb(), names_.preview_report()}};

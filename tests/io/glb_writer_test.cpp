@@ -215,6 +215,21 @@ TEST(GlbWriter, AClipWithoutTracksHoldsTheRoot) {
   EXPECT_THAT(track.values, ElementsAre(Vec3(0, 0, 0), Vec3(0, 0, 0)));
 }
 
+// FBX knows clips of one key that last: the toy's root has a translation there, so its scale is held.
+TEST(GlbWriter, AClipOfOneKeyLastsAsLong) {
+  Character toy = testing::ToyCharacter::make();
+  toy.clips.resize(1);
+  Clip& clip = toy.clips[0];
+  clip = {"pose", 1.5, {{JointId(0), {Interpolation::Linear, {0}, {Vec3(1, 2, 3)}}, {}, {}}}, {}};
+  const RawScene scene = read_back(toy);
+  ASSERT_EQ(scene.animations.at(0).nodes.size(), 1U);
+  const RawScene::NodeTracks& tracks = scene.animations[0].nodes[0];
+  EXPECT_THAT(tracks.translation.times, ElementsAre(0));
+  EXPECT_THAT(tracks.scale.times, ElementsAre(0, 1.5));
+  EXPECT_EQ(tracks.scale.values[0], tracks.scale.values[1]);
+  EXPECT_EQ(tracks.scale.values[0], toy.skeleton.joints[0].bind.scale);
+}
+
 TEST(GlbWriter, ClipsMoveToStartAtZeroAndTimesStayDistinct) {
   Character toy = testing::ToyCharacter::make();
   toy.clips.resize(1);
