@@ -130,7 +130,7 @@ class Build : public ::testing::Test {
   const std::string horse = fs::absolute(testing::shared_file("recipes/d13_remove_horse_tail.json"));
 };
 
-TEST_F(Build, ASecondOneDoesNothing) {
+TEST_F(Build, Goal01ASecondOneDoesNothing) {
   const ProgramResult first = call(build(horse, "out"));
   ASSERT_EQ(first.status, 0) << first.err;
   const auto made = contents(folder / "out");
