@@ -22,27 +22,31 @@ class Clearance {
   Eigen::ArrayXf depths(std::size_t row, std::size_t candidates, double most) const;
 
  private:
-  // Two balls that may meet.
-  struct Pair {
-    std::size_t driver, part;
-    float touch;  // distance at which they count
-  };
-  // A ball's places in a stretch of frames that begins at a multiple of its length.
-  using Reaches = std::vector<Eigen::AlignedBox3f>;
+  // Balls of both sides, thick ones first.
   struct Side {
-    std::vector<BallTrack> driver, part;  // per ball
-    std::vector<Reaches> reaches;         // per ball of the part
-    std::vector<Pair> pairs;
+    std::vector<BallTrack> driver, part;
+    // Per ball of the part: the boxes of its places in stretches of frames.
+    std::vector<std::vector<Eigen::AlignedBox3f>> reaches;
+    // Balls of the driver that a ball of the part may meet, and the distance at which they count; for each
+    // ball of the part [begin[b], begin[b + 1]), whole blocks, filled up with some that never count.
+    std::vector<std::size_t> begin = {0};
+    std::vector<std::uint32_t> meets;
+    std::vector<float> touch;
     float unit = 1;  // what a length in its frame is, of the base's diagonal
+
+    void add(std::uint32_t driver_ball, float distance);
+    std::vector<float> met_at(std::size_t row, std::size_t part_ball) const;  // 3 x #met
   };
   // Of candidates, in lengths of a seam's frame, and the least of each stretch.
   struct Depths {
     std::size_t count;
     float most;
     std::vector<float> deepest, shallowest;
+    std::vector<std::uint32_t> near;  // room
   };
-  static void deepen(const Side& side, const Pair& pair, const Eigen::Vector3f& ball, std::size_t stretch,
-                     Depths& depths);
+  static Side make_side(const Seam& seam, std::size_t first, std::size_t count);
+  static void deepen(const Side& side, std::size_t part_ball, const std::vector<float>& met,
+                     std::size_t stretch, Depths& depths);
 
   std::vector<Side> sides_;
 };

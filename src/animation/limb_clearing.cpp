@@ -16,6 +16,7 @@ constexpr double kMayCut = 0.005;       // ours: of the diagonal; balls are roug
 constexpr double kThickness = 1.25;     // ours: of balls, which have 0.8 of the mean thickness
 constexpr double kHelps = 0.5;          // ours: of the sum of squared depths
 constexpr std::size_t kMostPoses = 90;  // ours: a clip is looked at in so many rows
+constexpr double kLong = 4;             // ours: times the mean radius of its balls
 constexpr double kOuter = 0.25;      // ours: of a limb's reach; what is nearer to its root cannot turn away
 constexpr double kStands = 0.2;      // ours: of the input's height; what reaches down there stands or walks
 constexpr double kLeastTurn = 1e-3;  // radians
@@ -75,6 +76,7 @@ class LimbedPart {
   std::vector<bool> carried_by(JointId joint) const;
   std::vector<bool> outer_of(JointId pivot, const std::vector<bool>& carried) const;
   Vec3 bind_place(std::size_t ball) const;
+  bool is_long(JointId pivot, const std::vector<bool>& carried) const;
   bool reaches_ground(const std::vector<bool>& carried) const;
   std::optional<JointId> pivot_of(std::size_t ball) const;
   bool may_turn(JointId joint, const std::vector<bool>& carried) const;
@@ -126,6 +128,19 @@ Vec3 LimbedPart::bind_place(std::size_t ball) const {
   return input_.skeleton[skin.joint].joint_from_model.inverse() * skin.center;
 }
 
+// Not a head, which turned aside would look somewhere else.
+bool LimbedPart::is_long(JointId pivot, const std::vector<bool>& carried) const {
+  const Affine3& joint_from_model = input_.skeleton[pivot].joint_from_model;
+  double reach = 0, radii = 0, count = 0;
+  for (std::size_t b = 0; b < carried.size(); ++b) {
+    if (!carried[b]) continue;
+    reach = std::max(reach, (joint_from_model * bind_place(b)).norm() / scale_of(joint_from_model));
+    radii += seam_.part.set->balls[b].radius;
+    ++count;
+  }
+  return reach * count > kLong * radii;
+}
+
 // Hooves may be on joints of their own, so the leg itself is asked.
 bool LimbedPart::reaches_ground(const std::vector<bool>& carried) const {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -159,7 +174,7 @@ bool LimbedPart::may_turn(JointId joint, const std::vector<bool>& carried) const
   if (!is_top && !graft_.origins[result.index()].change.is_identity()) return false;
   const double area = area_of(carried);
   if (area > kLimb * area_ || (own_area_ > kLimb * area_ && area > kOfItsPart * own_area_)) return false;
-  if (reaches_ground(carried)) return false;
+  if (!is_long(joint, carried) || reaches_ground(carried)) return false;
   const std::vector<bool> below = input_.skeleton.subtree(joint);
   return std::none_of(graft_.sites.begin(), graft_.sites.end(), [&](const GraftSite& site) {
     const std::optional<Meeting> meeting = meeting_at(graft_, site);

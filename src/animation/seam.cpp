@@ -8,6 +8,8 @@
 namespace skinforge {
 namespace {
 
+constexpr double kJoined = 0.75;  // ours: of the sum of radii; nearer at rest, they are one body
+
 bool is_in(const std::vector<SourceId>& sources, SourceId source) {
   return std::find(sources.begin(), sources.end(), source) != sources.end();
 }
@@ -17,10 +19,6 @@ const SeamBalls* balls_at(const MotionSet& set, std::size_t site) {
   const auto found = std::find_if(set.seams.begin(), set.seams.end(),
                                   [&](const SeamBalls& balls) { return balls.site == site; });
   return found == set.seams.end() ? nullptr : &*found;
-}
-
-double scale_of(const Affine3& transform) {
-  return std::cbrt(std::abs(transform.linear().determinant()));
 }
 
 }  // namespace
@@ -44,8 +42,9 @@ double Seam::radii(std::size_t driver_ball, std::size_t part_ball) const {
 }
 
 double Seam::touching(std::size_t driver_ball, std::size_t part_ball, double thickness) const {
-  return std::min(thickness * radii(driver_ball, part_ball),
-                  (driver.balls->bind[driver_ball] - part.balls->bind[part_ball]).norm());
+  const double sum = radii(driver_ball, part_ball);
+  const double at_rest = (driver.balls->bind[driver_ball] - part.balls->bind[part_ball]).norm();
+  return at_rest < kJoined * sum ? 0 : std::min(thickness * sum, at_rest);
 }
 
 std::vector<Seam> seams_between(std::span<const Character* const> characters, const Graft& graft,

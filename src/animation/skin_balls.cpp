@@ -30,10 +30,6 @@ std::vector<std::vector<Vec3>> vertices_by_joint(const Character& input) {
   return vertices;
 }
 
-double scale_of(const Affine3& transform) {
-  return std::cbrt(std::abs(transform.linear().determinant()));
-}
-
 // The line along which the skin of a joint lies, and how thick it is around it; all in the joint's frame.
 struct SkinAxis {
   Vec3 middle = Vec3::Zero(), direction = Vec3::UnitX();
@@ -115,6 +111,10 @@ std::vector<Vec3> places_of(const std::vector<SkinBall>& balls, const SeamFrame&
 }
 
 }  // namespace
+
+double scale_of(const Affine3& transform) {
+  return std::cbrt(std::abs(transform.linear().determinant()));
+}
 
 std::optional<Meeting> meeting_at(const Graft& graft, const GraftSite& site) {
   if (!site.donor.is_valid() || !site.fused.is_valid()) return {};

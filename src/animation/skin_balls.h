@@ -8,6 +8,9 @@
 
 namespace skinforge {
 
+/// The factor by which a transform scales lengths in the mean.
+double scale_of(const Affine3& transform);
+
 /// Two sources meet where the topmost joint of the one hangs on a joint of the other.
 struct Meeting {
   JointOrigin above, below;
