@@ -26,10 +26,10 @@ struct KeyframePath {
 /// What moving along a path costs, in units of the keyframe distance, and how often the tempo may change.
 struct PathCosts {
   static constexpr int kNever = 255;
-  int hold_wait = 1;     ///< frames between two holds at least; 1: down to half speed; kNever: no holds
-  int skip_wait = 0;     ///< frames between two skips at least; 0: up to double speed; kNever: no skips
-  float tempo = 0.002F;  ///< a Hold or Skip; ours, see completion.md
-  float jump = 0.8F;     ///< a Jump; ours, see completion.md
+  int hold_wait = 1;    ///< frames between two holds at least; 1: down to half speed; kNever: no holds
+  int skip_wait = 0;    ///< frames between two skips at least; 0: up to double speed; kNever: no skips
+  float tempo = 0.03F;  ///< a Hold or Skip; ours, see completion.md
+  float jump = 0.8F;    ///< a Jump; ours, see completion.md
 };
 
 /// What landing on each keyframe costs a jump that leaves from `from`: 0 = nobody will notice. The span is
