@@ -135,7 +135,7 @@ std::array<Vec3, 256> heat_codes() {
 }
 
 Raster heat_of(const Raster& a, const Raster& b) {
-  constexpr double kPale = 190, kInk = 0.22;  // ours: a grey that no heat colour is lost on
+  constexpr double kPale = 120, kInk = 0.43;  // ours: a grey that no heat colour is lost on
   constexpr int kStrength = 4;                // ours: a quarter of the range is as dark as all of it
   const std::array<Vec3, 256> codes = heat_codes();
   Raster heat = a;
