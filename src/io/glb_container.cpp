@@ -27,9 +27,10 @@ std::uint32_t word(std::span<const std::byte> bytes, std::size_t offset) {
 }
 
 void check_header(std::span<const std::byte> file) {
+  if (file.size() >= sizeof kMagic && word(file, 0) != kMagic)
+    bad("not a GLB file: it does not start with \"glTF\"");
   if (file.size() < kHeaderSize)
     bad(fmt::format("truncated GLB: the header has {} bytes, file has {}", kHeaderSize, file.size()));
-  if (word(file, 0) != kMagic) bad("not a GLB file: it does not start with \"glTF\"");
   if (word(file, 4) != 2) bad(fmt::format("GLB version {}, wanted 2", word(file, 4)));
   const std::size_t length = word(file, 8);
   if (length > file.size())
@@ -76,6 +77,11 @@ GlbChunks parse_glb(std::span<const std::byte> file) {
   }
   if (number == 0) bad("GLB: no JSON chunk");
   return chunks;
+}
+
+GlbChunks gltf_chunks(std::string_view path, std::span<const std::byte> file) {
+  if (is_glb(file) || path.ends_with(".glb")) return parse_glb(file);
+  return {file, {}};
 }
 
 }  // namespace skinforge

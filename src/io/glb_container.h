@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace skinforge {
 
@@ -19,5 +20,8 @@ bool is_glb(std::span<const std::byte> file);
 /// the two known ones are skipped. Throws Error (BadInput), e.g. "truncated GLB: header says 682356 bytes,
 /// file has 20000".
 GlbChunks parse_glb(std::span<const std::byte> file);
+
+/// The same of a file that may be JSON alone, as .gltf files are; one that is called .glb has to be a GLB.
+GlbChunks gltf_chunks(std::string_view path, std::span<const std::byte> file);
 
 }  // namespace skinforge

@@ -81,9 +81,7 @@ GltfBuffers read_buffers(const JsonPlace& root, const std::vector<InputFile>& fi
 }  // namespace
 
 GltfDocument open_gltf(const std::vector<InputFile>& files, IssueSink& issues) {
-  const std::span<const std::byte> bytes(files.front().bytes);
-  const GlbChunks chunks =
-      is_glb(bytes) || files.front().path.ends_with(".glb") ? parse_glb(bytes) : GlbChunks{bytes, {}};
+  const GlbChunks chunks = gltf_chunks(files.front().path, files.front().bytes);
   JsonDocument json(chunks.json);
   const JsonPlace root = json.root();
   const std::string name = printable(std::filesystem::path(files.front().path).filename().string());

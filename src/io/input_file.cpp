@@ -92,11 +92,9 @@ bool mentions_uris(std::span<const std::byte> json) {
 }
 
 std::vector<Reference> gltf_references(const InputFile& file) {
-  const std::span<const std::byte> bytes(file.bytes);
-  const bool binary = is_glb(bytes);
-  const auto json = binary ? parse_glb(bytes).json : bytes;
-  if (binary && !mentions_uris(json)) return {};
-  const JsonDocument document(json);
+  const GlbChunks chunks = gltf_chunks(file.path, file.bytes);
+  if (is_glb(file.bytes) && !mentions_uris(chunks.json)) return {};
+  const JsonDocument document(chunks.json);
   std::vector<Reference> list;
   add_uris(list, file.path, document.root(), "buffers", true);
   add_uris(list, file.path, document.root(), "images", false);
@@ -157,6 +155,18 @@ bool is_read(const std::vector<InputFile>& files, const std::string& path) {
   return std::any_of(files.begin(), files.end(), [&](const InputFile& f) { return f.path == path; });
 }
 
+// Files of that kind beside one that is not there, for a mistyped name.
+std::string nearest_files(const fs::path& path) {
+  constexpr std::size_t kMost = 1000;  // ours: names to look through
+  std::vector<std::string> names;
+  std::error_code error;  // of a folder that is not there either
+  for (fs::directory_iterator item(path.has_parent_path() ? path.parent_path() : fs::path("."), error), end;
+       !error && item != end && names.size() < kMost; item.increment(error))
+    if (item->path().extension() == path.extension()) names.push_back(item->path().filename().string());
+  std::sort(names.begin(), names.end());
+  return nearest_hint(path.filename().string(), names);
+}
+
 }  // namespace
 
 InputFile read_input_file(const std::string& path, std::size_t max_bytes, FileDigests* digests) {
@@ -172,6 +182,9 @@ InputFile read_input_file(const std::string& path, std::size_t max_bytes, FileDi
 }
 
 std::vector<InputFile> read_input_files(const std::string& path, FileDigests* digests) {
+  std::error_code error;
+  if (!fs::exists(path, error) && !error && path.find('\0') == std::string::npos)
+    bad(path, "no such file" + nearest_files(path));
   std::vector<InputFile> files;
   files.push_back(read_input_file(path, limits().file, digests));
   for (std::size_t i = 0; i < files.size(); ++i) {  // a material library found in an OBJ names files itself

@@ -70,6 +70,18 @@ TEST_F(InputFileTest, SaysWhyAFileCannotBeRead) {
   }
 }
 
+TEST_F(InputFileTest, NamesTheNearestFileOfThatKind) {
+  write("human.glb", "x");
+  write("human.txt", "x");
+  const std::string absent = (folder_ / "humon.glb").string();
+  try {
+    read_input_files(absent);
+    FAIL() << "read what is not there";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), absent + ": no such file (nearest: \"human.glb\")");
+  }
+}
+
 TEST_F(InputFileTest, FindsBuffersAndImagesOfAGltf) {
   write("asset/my data.bin", "x");
   write("asset/tex/i.png", "y");

@@ -224,10 +224,11 @@ std::vector<Fault> recipe_faults() {
        2, "must end in .glb"},
       {"absolute path", [](json& r) { r["inputs"]["human"] = "/human.glb"; }, 2, "relative"},
       {"an address", [](json& r) { r["inputs"]["human"] = "http://x/human.glb"; }, 2, "address"},
-      {"no such file", [](json& r) { r["inputs"]["human"] = "humon.glb"; }, 3, "no such file"},
+      {"no such file", [](json& r) { r["inputs"]["human"] = "humon.glb"; }, 3,
+       "no such file (nearest: \"human.glb\""},
       {"joint unknown", [&](json& r) { op(r)["joint"] = "Tial1"; }, 2, "no joint"},
       {"truncated GLB", [](json& r) { r["inputs"]["human"] = "short.glb"; }, 3, "file has 20000"},
-      {"text as GLB", [](json& r) { r["inputs"]["human"] = "text.glb"; }, 3, "text.glb"},
+      {"text as GLB", [](json& r) { r["inputs"]["human"] = "text.glb"; }, 3, "text.glb: not a GLB file"},
       {"empty range",
        [](json& r) {
          r["expect"] = {{"joints", {{"min", 9}, {"max", 3}}}};
