@@ -73,6 +73,13 @@ def look(page, seen):
         click(page, f"#{switch}")
 
 
+def shown_pictures(page):
+    """How many images can be drawn; those further down are fetched, too."""
+    page.value("[...document.images].forEach((i) => { i.loading = 'eager'; })")
+    page.wait_for("[...document.images].every((i) => i.complete)")
+    return page.value("[...document.images].filter((i) => i.naturalWidth > 0).length")
+
+
 def main(kind, path, picture=None):
     if not chromium():
         sys.exit(3)
@@ -88,6 +95,7 @@ def main(kind, path, picture=None):
         if seen["viewer"] == "ready":
             play(page, seen)
             look(page, seen)
+        seen["pictures"] = shown_pictures(page)
         if picture:
             page.picture(picture, full=True)
         seen["complaints"] = page.complaints

@@ -68,6 +68,7 @@ TEST_F(Goal14, TheReportOfABuild) {
   for (const auto& [clip, share] : seen.at("moved").items()) EXPECT_GT(share.get<double>(), kMoves) << clip;
   for (const auto& [what, share] : seen.at("changed").items()) EXPECT_GT(share.get<double>(), kMoves) << what;
   EXPECT_EQ(seen.at("legend"), json({"human", "griffin", "made new at a junction"})) << seen.at("legend");
+  EXPECT_EQ(seen.at("pictures"), 3);  // rest, weights, the junction
   for (const char* section : {"clips", "junctions", "pictures", "issues", "ledger", "timeline", "files"})
     EXPECT_THAT(seen.at("sections"), Contains(section));
 }
@@ -102,6 +103,9 @@ TEST_F(Goal14, TwoModelsSideBySide) {
   expect_quiet(seen);
   EXPECT_THAT(seen.at("sections"), ElementsAre("findings", "clips", "pictures", "structure"));
   EXPECT_GT(seen.at("changed").at("error").get<double>(), kMoves);
+  EXPECT_EQ(seen.at("pictures"), 4 + 3 + 2);  // the bind pose, the worst clip, two more
+  const auto models = fs::file_size(folder / "a.glb") + fs::file_size(folder / "b.glb");
+  EXPECT_LE(fs::file_size(folder / "diff.html"), kMegabyte + (models + 2) / 3 * 4);
 }
 
 }  // namespace
