@@ -7,6 +7,8 @@
 
 #include "base/text.h"
 #include "cli/commands.h"
+#include "diff/structure_diff.h"
+#include "diff/surface_diff.h"
 #include "geometry/edges.h"
 
 namespace skinforge {
@@ -32,12 +34,8 @@ void count_edges(const PolygonMesh& mesh, Inspection& result) {
 
 void count_weights(const Character& character, Inspection& result) {
   std::vector<bool> is_used(character.skeleton.size(), false);
-  for (std::size_t v = 0; v < character.weights.vertex_count(); ++v) {
-    const auto row = character.weights.of(VertexId(v));
-    if (result.influences.size() <= row.size()) result.influences.resize(row.size() + 1, 0);
-    ++result.influences[row.size()];
-    for (const Influence& influence : row) is_used[influence.joint.index()] = true;
-  }
+  for (const Influence& influence : character.weights.influences) is_used[influence.joint.index()] = true;
+  result.influences = count_by_influences(character.weights);
   result.joints_without_weights = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), false));
 }
 
@@ -62,13 +60,6 @@ void compare_poses(const Character& character, const RawScene& scene, Inspection
     result.default_pose_distance = distance;
     result.default_pose_joint = node.name;
   }
-}
-
-std::size_t key_count(const Clip& clip) {
-  std::size_t keys = 0;
-  for (const JointTracks& tracks : clip.joints)
-    keys += tracks.translation.times.size() + tracks.rotation.times.size() + tracks.scale.times.size();
-  return keys;
 }
 
 json to_json(const Vec3& v) {

@@ -41,17 +41,6 @@ double unchanged_share(const Character& a, const Character& b, const Corresponde
   return double(unchanged) / double(same.vertices.size());
 }
 
-// How many rows have 0, 1, 2 ... influences.
-std::vector<std::size_t> count_by_influences(const SkinWeights& weights) {
-  std::vector<std::size_t> counts;
-  for (std::size_t v = 0; v < weights.vertex_count(); ++v) {
-    const std::size_t influences = weights.of(VertexId(v)).size();
-    if (counts.size() <= influences) counts.resize(influences + 1);
-    ++counts[influences];
-  }
-  return counts;
-}
-
 // Distance of each vertex of one mesh from the surface of another.
 void add_distances(const PolygonMesh& from, const PolygonMesh& to, const Surface& surface,
                    std::vector<double>& distances) {
@@ -65,6 +54,16 @@ void add_distances(const PolygonMesh& from, const PolygonMesh& to, const Surface
   });
 }
 }  // namespace
+
+std::vector<std::size_t> count_by_influences(const SkinWeights& weights) {
+  std::vector<std::size_t> counts;
+  for (std::size_t v = 0; v < weights.vertex_count(); ++v) {
+    const std::size_t influences = weights.of(VertexId(v)).size();
+    if (counts.size() <= influences) counts.resize(influences + 1);
+    ++counts[influences];
+  }
+  return counts;
+}
 
 std::string heaviest_joint(const Character& character, VertexId vertex) {
   const auto row = character.weights.of(vertex);
