@@ -56,6 +56,7 @@ const std::map<std::string, std::string>& topics() {
   "expect": { "golden": "golden/centaur.glb" } in a recipe keeps its result like that file; build --accept takes a new
   one, with a note golden/centaur.glb.change.md of what changed
   diff golden.glb new.glb --html diff.html   status 5 where they differ; --accept takes the new one
+  --pictures shots/     with diff: before, after and difference as PNG; --sarif and --junit: the verdicts
 )"}};
   return kTopics;
 }
