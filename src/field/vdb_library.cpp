@@ -1,10 +1,10 @@
 #include <dlfcn.h>
-#include <fmt/core.h>
 #include <link.h>
 #include <sys/mman.h>
 
 #include <fstream>
 #include <iterator>
+#include <new>
 
 #include "base/error.h"
 #include "base/hash.h"
@@ -33,13 +33,12 @@ void expect_own(const std::string& path) {
 }
 
 // Libraries that the module brings start threads while they are loaded and end the process when that fails
-// (log4cplus 2.0.8); so there must be room for all of it before.
+// (log4cplus 2.0.8); so there must be room for all of it before. An `Error` would be remembered as one that
+// the same recipe meets again.
 void expect_room() {
   constexpr std::size_t kNeeded = std::size_t{160} << 20;  // ours: 93 MB measured, and stacks that come later
   void* room = ::mmap(nullptr, kNeeded, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (room == MAP_FAILED)
-    throw Error(ExitCode::StageFailed,
-                fmt::format("not enough memory: {} needs {} MB of address space", kVdbModule, kNeeded >> 20));
+  if (room == MAP_FAILED) throw std::bad_alloc();
   ::munmap(room, kNeeded);
 }
 

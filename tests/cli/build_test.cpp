@@ -215,6 +215,22 @@ TEST_F(Build, Goal04GoesOnAfterBeingKilled) {
   EXPECT_EQ(call({"cache", "verify", "--cache", "cache"}).status, 0);
 }
 
+// A stage that had too little room has more next time.
+TEST_F(Build, WantOfMemoryIsNotRemembered) {
+  const std::string limiter = "/usr/bin/prlimit";
+  if (!fs::exists(limiter)) GTEST_SKIP() << "no " << limiter;
+  const std::string recipe = fs::absolute(testing::repository_file("recipes/tail.json"));
+  for (const int megabytes : {64, 128, 192}) {
+    const std::string name = std::to_string(megabytes);
+    const auto words = build(recipe, "out" + name, "cache" + name);
+    auto limited = words;
+    limited.insert(limited.begin(), {"--as=" + std::to_string(megabytes << 20), SKINFORGE_BINARY});
+    Program(limiter, limited, folder.path()).finish();
+    const ProgramResult next = call(words);
+    EXPECT_EQ(next.status, 0) << megabytes << " MB: " << next.err;
+  }
+}
+
 // Every stage gives the same bytes a second time.
 TEST_F(Build, VerifyRunsWhatIsKnownAndComparesIt) {
   ASSERT_EQ(call(build(horse, "out")).status, 0);
