@@ -1,5 +1,12 @@
 """Small text formats, each rule broken once."""
+SKIN = """<source id="n"><Name_array id="a" count="2">low high</Name_array></source><vertex_weights count="1">
+<input semantic="JOINT" source="#n" offset="0"/><input semantic="WEIGHT" source="#w" offset="1"/><vcount>1</vcount><v>0 7 1 8</v></vertex_weights>"""
 TEXTS = {
+    "dae": [SKIN, SKIN.replace("1 8", "2 8"), SKIN.replace("0 7", "-1 7"), SKIN.replace("</v>", ""), SKIN.replace("Name_array", "IDREF_array"),
+            SKIN.replace("#n", "#m"), SKIN.replace("</source>", ""), '<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a "b">]>' + SKIN,
+            '<node id="a"><instance_node url="#a"/></node>', '<node id="a"/><node id="b"><instance_node url="#a"/><instance_node url="#a"/></node>',
+            '<node id="a"><node id="b" name=\'>\'><instance_node url="#a"/></node></node>', '<node id="a"><!-- <node id="b"> --><![CDATA[<node>]]></node></node>',
+            "".join(f'<node id="n{i}">' + 2 * f'<instance_node url="#n{i - 1}"/>' + "</node>" for i in range(20)), "<node" * 9, "<!--", "<![CDATA["],
     "dmat": ["2 2\n1 2 3 4\n", "2 2\n1 2 3\n", "2 2\n1 2 3 4 5\n", "0 0\n", "2\n", "x\n", "-1 2\n", "2 2\n1 2 nan 4\n", "2 2\n1 2 x 4\n",
              "99999999 99999999\n1", "0 0\n2 1\n" + "\0" * 16, "0 0\n2 1\n" + "\0" * 15, "0 0\n1 1\n\0\0\0\0\0\0\xf0\x7f", "0 0\nx\n", "1 0\n", "0 0\n99999999 99999999\n"],
     "tgf": ["1 0 0 0\n2 0 1 0\n#\n1 2\n", "1 0 0 0\n#\n1 1\n", "1 0 0 x\n#\n", "1 0 0 0\n1 0 0 0\n#\n1 2\n", "1 0 0 inf\n#\n1 1\n", "#\n", ""],
