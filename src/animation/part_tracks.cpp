@@ -91,14 +91,16 @@ void soften_seam(std::vector<Quat>& rotations) {
   for (int round = 0; round < kSeamRounds; ++round) {
     double inside = 0;
     for (std::size_t k = 1; k + 1 < n; ++k) inside = std::max(inside, kink_at(rotations, k));
-    const double seam = std::max(kink_at(rotations, n - 1), kink_at(rotations, 0));
-    if (seam <= inside) return;
-    const double too_much = 1 - angle_of_kink(inside) / angle_of_kink(seam);
+    const double seam = angle_of_kink(std::max(kink_at(rotations, n - 1), kink_at(rotations, 0)));
+    const double wanted = angle_of_kink(inside);
+    if (seam <= wanted) return;
+    const double too_much = 1 - wanted / seam;
     const std::vector<Quat> old = rotations;
     for (std::size_t i = n - kSeamReach; i <= n + kSeamReach; ++i) {
-      const std::size_t k = i % n;
-      rotations[k] =
-          old[k].slerp(std::min(1.0, 2 * too_much), smoothed(old[(k + n - 1) % n], old[k], old[(k + 1) % n]));
+      const std::size_t k = i % n, away = i < n ? n - i : i - n;
+      const double share = 1 - static_cast<double>(away) / (kSeamReach + 1);  // else the peak stays, lower
+      rotations[k] = old[k].slerp(share * std::min(1.0, 2 * too_much),
+                                  smoothed(old[(k + n - 1) % n], old[k], old[(k + 1) % n]));
     }
   }
 }
