@@ -90,23 +90,30 @@ def side_by_side(pictures):
     return [(b"\xff" * 3 * GAP).join(lines) for lines in zip(*pictures)]
 
 
-def with_elements(recipe, elements, folder):
-    """A recipe of the repository whose junctions are made of these, to be read from that folder."""
+def above(upper, lower):
+    """Both cut to the width of the narrower."""
+    width = min(len(upper[0]), len(lower[0]))
+    return [row[:width] for row in [*upper, *([b"\xff" * width] * GAP), *lower]]
+
+
+def with_settings(recipe, elements, clearing, folder):
+    """A recipe of the repository with these junction elements and limb clearing, to be read from that folder."""
     content = json.loads((ROOT / f"recipes/{recipe}.json").read_text())
     for name, file in content["inputs"].items():
         content["inputs"][name] = os.path.relpath(ROOT / "recipes" / file, folder)
     content.setdefault("surface", {})["elements"] = elements
+    content.setdefault("animation", {})["limb_clearing_deg"] = clearing
     return content
 
 
 def main():
     program = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/release/skinforge")
     with tempfile.TemporaryDirectory() as scratch:
-        def picture(recipe, name, elements="auto"):
-            out = Path(scratch) / f"{recipe}_{elements}"
+        def picture(recipe, name, elements="auto", clearing=40):
+            out = Path(scratch) / f"{recipe}_{elements}_{clearing}"
             if not out.exists():
-                file = Path(scratch) / f"{recipe}_{elements}.json"
-                file.write_text(json.dumps(with_elements(recipe, elements, scratch)))
+                file = Path(scratch) / f"{out.name}.json"
+                file.write_text(json.dumps(with_settings(recipe, elements, clearing, scratch)))
                 subprocess.run([program, "build", "--quiet", "--cache", scratch + "/cache", "--out", str(out),
                                 str(file)], check=True)
             return read_png(out / f"pictures/{name}.png")
@@ -116,6 +123,8 @@ def main():
         write_png(target / "characters.png",
                   side_by_side([halved(view(picture(recipe, "rest"), k)) for recipe, k in shown]))
         write_png(target / "centaur_gallop.png", picture("centaur", "clip_Gallop"))
+        write_png(target / "four_arms_walk.png", above(*(picture("four_armed", "clip_Walk", clearing=degrees)
+                                                         for degrees in (0, 40))))
         shown = [("centaur", 0), ("centaur", 1), ("tail", 0), ("four_armed", 0)]
         write_png(target / "junctions.png",
                   side_by_side([halved(view(picture(recipe, "junction1"), k)) for recipe, k in shown]))

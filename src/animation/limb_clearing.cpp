@@ -16,7 +16,7 @@ constexpr double kMayCut = 0.005;       // ours: of the diagonal; balls are roug
 constexpr double kThickness = 1.25;     // ours: of balls, which have 0.8 of the mean thickness
 constexpr double kHelps = 0.5;          // ours: of the sum of squared depths
 constexpr std::size_t kMostPoses = 90;  // ours: a clip is looked at in so many rows
-constexpr double kLong = 4;             // ours: times the mean radius of its balls
+constexpr double kLong = 3;             // ours: times the radius of its thickest ball
 constexpr double kOuter = 0.25;      // ours: of a limb's reach; what is nearer to its root cannot turn away
 constexpr double kStands = 0.2;      // ours: of the input's height; what reaches down there stands or walks
 constexpr double kLeastTurn = 1e-3;  // radians
@@ -131,14 +131,13 @@ Vec3 LimbedPart::bind_place(std::size_t ball) const {
 // Not a head, which turned aside would look somewhere else.
 bool LimbedPart::is_long(JointId pivot, const std::vector<bool>& carried) const {
   const Affine3& joint_from_model = input_.skeleton[pivot].joint_from_model;
-  double reach = 0, radii = 0, count = 0;
+  double reach = 0, thickest = 0;
   for (std::size_t b = 0; b < carried.size(); ++b) {
     if (!carried[b]) continue;
     reach = std::max(reach, (joint_from_model * bind_place(b)).norm() / scale_of(joint_from_model));
-    radii += seam_.part.set->balls[b].radius;
-    ++count;
+    thickest = std::max(thickest, seam_.part.set->balls[b].radius);
   }
-  return reach * count > kLong * radii;
+  return reach > kLong * thickest;
 }
 
 // Hooves may be on joints of their own, so the leg itself is asked.

@@ -8,8 +8,6 @@
 namespace skinforge {
 namespace {
 
-constexpr double kJoined = 0.75;  // ours: of the sum of radii; nearer at rest, they are one body
-
 bool is_in(const std::vector<SourceId>& sources, SourceId source) {
   return std::find(sources.begin(), sources.end(), source) != sources.end();
 }
@@ -44,7 +42,7 @@ double Seam::radii(std::size_t driver_ball, std::size_t part_ball) const {
 double Seam::touching(std::size_t driver_ball, std::size_t part_ball, double thickness) const {
   const double sum = radii(driver_ball, part_ball);
   const double at_rest = (driver.balls->bind[driver_ball] - part.balls->bind[part_ball]).norm();
-  return at_rest < kJoined * sum ? 0 : std::min(thickness * sum, at_rest);
+  return std::min(thickness * sum, at_rest);
 }
 
 std::vector<Seam> seams_between(std::span<const Character* const> characters, const Graft& graft,

@@ -39,7 +39,7 @@ struct Seam {
   /// Sum of the radii of two balls, in the seam's frame.
   double radii(std::size_t driver_ball, std::size_t part_ball) const;
   /// Distance at which they count as cutting: the sum of their radii, or their distance in the bind pose
-  /// where that is less; 0 where both lie in each other there, as where the parts grow together.
+  /// where that is less, as where the parts grow together.
   /// `thickness`: of the balls, times their radius.
   double touching(std::size_t driver_ball, std::size_t part_ball, double thickness = 1) const;
 };
