@@ -15,6 +15,8 @@ constexpr double kMayCut = 0.005;     // ours: of the diagonal; balls are rough
 constexpr float kCuttingCost = 10;    // ours: for a depth of the diagonal; 1 % costs as much as another name
 constexpr float kMostForCutting = 1;  // ours: no more than a jump and a bad pose
 constexpr int kCuttingRounds = 2;     // ours: the second search may cut elsewhere
+constexpr std::size_t kRowsAlike =
+    3;  // ours: a tenth of a second, in which limbs go no farther than balls are rough
 
 FrameSteps row_steps(const DriverFrames& frames) {
   FrameSteps steps;
@@ -146,18 +148,24 @@ PathCosts path_costs(const CompletionOptions& options) {
   return costs;
 }
 
-// Rows in which the parts cut each other along a path; their costs grow by what every keyframe would cut.
+// Rows in which the parts cut each other along a path; their costs grow by what every keyframe would cut,
+// there or in the row just before.
 std::int64_t add_cutting_costs(const Clearance& clearance, const KeyframePath& path,
                                std::vector<bool>& is_done, DistanceTable& costs) {
   std::int64_t found = 0;
+  std::size_t asked = 0;
+  Eigen::ArrayXf depths;
   for (std::size_t f = 0; f < path.candidates.size(); ++f) {
     const auto shown = static_cast<std::size_t>(path.candidates[f]);
     if (is_done[f] || clearance.depth(f, shown) <= kMayCut) continue;
     is_done[f] = true;
     ++found;
     const auto row = costs.row(f);
-    Eigen::Map<Eigen::ArrayXf>(row.data(), static_cast<Eigen::Index>(row.size())) +=
-        kCuttingCost * clearance.depths(f, row.size(), kMostForCutting / kCuttingCost);
+    if (depths.size() == 0 || f >= asked + kRowsAlike) {
+      depths = clearance.depths(f, row.size(), kMostForCutting / kCuttingCost);
+      asked = f;
+    }
+    Eigen::Map<Eigen::ArrayXf>(row.data(), depths.size()) += kCuttingCost * depths;
   }
   return found;
 }
