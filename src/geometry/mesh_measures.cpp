@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "geometry/disjoint_sets.h"
 #include "geometry/edges.h"
 #include "geometry/scaled_jacobian.h"
 
@@ -43,8 +43,7 @@ std::size_t count_degenerate(const PolygonMesh& mesh) {
 // Fans per vertex: corners joined by an edge of two faces at their vertex belong to one fan.
 class Fans {
  public:
-  Fans(const PolygonMesh& mesh, const EdgeList& edges) : mesh_(mesh), parent_(mesh.corner_count()) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+  Fans(const PolygonMesh& mesh, const EdgeList& edges) : mesh_(mesh), fans_(mesh.corner_count()) {
     for (const Edge& edge : edges.edges)
       for (std::size_t i = 1; i < edge.half_edges.size(); ++i)
         join(edges, edge.half_edges[0], edge.half_edges[i]);
@@ -52,28 +51,22 @@ class Fans {
 
   std::size_t vertices_with_several() {
     std::vector<std::int32_t> fans(mesh_.vertex_count(), 0);
-    for (std::size_t c = 0; c < parent_.size(); ++c)
-      if (root(static_cast<std::int32_t>(c)) == static_cast<std::int32_t>(c))
-        ++fans[mesh_.corners[c].index()];
+    for (std::size_t c = 0; c < mesh_.corner_count(); ++c)
+      if (fans_.is_root(static_cast<std::int32_t>(c))) ++fans[mesh_.corners[c].index()];
     return static_cast<std::size_t>(std::count_if(fans.begin(), fans.end(), [](int n) { return n > 1; }));
   }
 
  private:
-  std::int32_t root(std::int32_t c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-  void unite(std::int32_t a, std::int32_t b) { parent_[root(a)] = root(b); }
   // The corners of two half-edges of one edge, at both of its vertices.
   void join(const EdgeList& edges, std::int32_t a, std::int32_t b) {
     const std::int32_t a_end = edges.next_corner[a], b_end = edges.next_corner[b];
     const bool same_way = mesh_.corners[a] == mesh_.corners[b];
-    unite(a, same_way ? b : b_end);
-    unite(a_end, same_way ? b_end : b);
+    fans_.unite(a, same_way ? b : b_end);
+    fans_.unite(a_end, same_way ? b_end : b);
   }
 
   const PolygonMesh& mesh_;
-  std::vector<std::int32_t> parent_;
+  DisjointSets fans_;
 };
 
 }  // namespace
