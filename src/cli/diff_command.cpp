@@ -19,6 +19,7 @@
 #include "report/build_verdict.h"
 #include "report/junit.h"
 #include "stages/compared_pictures.h"
+#include "stages/file_facts.h"
 
 namespace skinforge {
 namespace fs = std::filesystem;
@@ -27,6 +28,7 @@ using nlohmann::json;
 namespace {
 struct Side {
   Character character;
+  FileFacts facts;
   Bytes bytes;  // of the file itself
 };
 
@@ -37,6 +39,7 @@ Side read_side(const std::string& path, Console& console) {
   side.character = build_character(read_scene(files), path, issues);
   for (const Issue& issue : issues.issues())
     if (issue.severity == Severity::Warning) console.detail(issue.place + ": " + issue.message);
+  side.facts = facts_of(files);
   side.bytes = std::move(files.front().bytes);
   return side;
 }
@@ -117,8 +120,7 @@ ExitCode diff_command(const CommandLine& line, Console& console) {
   const DiffThresholds thresholds = thresholds_of(request.thresholds);
   const Side a = read_side(request.a, console), b = read_side(request.b, console);
   CharacterDiff diff = compare_characters(
-      a.character, b.character,
-      {.bytes_a = a.bytes.size(), .bytes_b = b.bytes.size(), .wants_vertices = !request.html.empty()});
+      a.character, b.character, {.a = a.facts, .b = b.facts, .wants_vertices = !request.html.empty()});
   const bool writes_pictures = !request.pictures.empty();
   if (!request.without_pictures)
     add_pictures(

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/recipe_tasks.h"
-#include "io/glb_container.h"
+#include "io/glb_provenance.h"
 #include "io/glb_stamp.h"
 #include "io/import.h"
 #include "recipe/recipe_files.h"
@@ -15,13 +15,10 @@ namespace skinforge {
 using nlohmann::json;
 
 namespace {
-// What the file says it was made of; null when it says nothing.
+// Null when the file does not say what it was made of.
 json provenance_of(const Bytes& glb) {
-  const auto text = parse_glb(glb).json;
-  const auto* begin = reinterpret_cast<const char*>(text.data());
-  const json document = json::parse(begin, begin + text.size(), nullptr, false);
-  const json::json_pointer place("/asset/extras/skinforge");
-  return document.contains(place) && document.at(place).is_object() ? document.at(place) : json();
+  const std::string text = provenance_text(glb);
+  return text.empty() ? json() : json::parse(text);
 }
 
 std::string stamp_fault(const Bytes& glb) {

@@ -7,6 +7,7 @@
 
 #include "diff/animation_diff.h"
 #include "diff/corner_diff.h"
+#include "diff/file_diff.h"
 #include "diff/structure_diff.h"
 #include "diff/surface_diff.h"
 
@@ -84,10 +85,15 @@ CharacterDiff compare_characters(const Character& a, const Character& b, const D
   const Correspondence& same = diff.same;
   diff.diagonal = a.mesh.diagonal();
   diff.structure = compare_structure(a, b, same);
-  diff.structure.a.bytes = options.bytes_a;
-  diff.structure.b.bytes = options.bytes_b;
+  diff.structure.a.bytes = options.a.bytes;
+  diff.structure.b.bytes = options.b.bytes;
+  diff.provenance = compare_provenance(options.a.provenance, options.b.provenance);
+  diff.rules = compare_rules(options.a, options.b);
+  for (std::string& edit : edits_of(diff.rules)) diff.structure.edits.push_back(std::move(edit));
   diff.geometry = compare_surfaces(a, b, same, diff.diagonal);
   compare_corners(a, b, same, diff.geometry);
+  diff.geometry.uv_a = measure_uvs(a.mesh);
+  diff.geometry.uv_b = measure_uvs(b.mesh);
   diff.skin = compare_weights(a, b, same);
   diff.clips = compare_clips(a, b, same, diff.diagonal, options.wants_vertices);
   return diff;

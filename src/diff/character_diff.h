@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diff/correspondence.h"
+#include "geometry/uv_measures.h"
 #include "model/character.h"
 #include "render/picture_difference.h"
 
@@ -18,7 +19,8 @@ struct CharacterCounts {
   std::size_t joints = 0, vertices = 0, faces = 0, triangles = 0, quads = 0, parts = 0, materials = 0,
               images = 0, morphs = 0, clips = 0, keys = 0, uv_sets = 0, influences = 0;  ///< most of a vertex
   std::size_t components = 0, open_edges = 0, non_manifold_edges = 0;
-  std::uint64_t bytes = 0;  ///< of the file
+  std::size_t genus = 0, boundary_loops = 0;  ///< of components that are surfaces (geometry/genus.h)
+  std::uint64_t bytes = 0;                    ///< of the file
 };
 
 struct StructureDiff {
@@ -44,6 +46,7 @@ struct GeometryDiff {
   double volume_a = 0, volume_b = 0;  ///< cubic metres; an open surface is closed to the middle of A's box
   CornerDiff normals_deg;             ///< angle between normals, in [0, 180]
   CornerDiff uvs;                     ///< distance of UVs, all sets; 1 is the edge of the texture
+  UvMeasures uv_a, uv_b;              ///< stretch and overlap of the first set
 };
 
 struct SkinDiff {
@@ -82,10 +85,33 @@ struct PictureDiff {
 /// "Gallop at 0.583 s, side", "the bind pose, front".
 std::string title_of(const PictureDiff& picture);
 
+/// A rule of glTF that a file breaks, by its code (io/gltf_rules.h).
+struct BrokenRule {
+  std::string code;
+  bool is_error = true;  ///< else a warning
+  std::size_t count = 0;
+};
+
+/// How often both files break one rule.
+struct RuleDelta {
+  std::string code;
+  bool is_error = true;
+  std::size_t in_a = 0, in_b = 0;
+};
+
+/// What a file says beside its character.
+struct FileFacts {
+  std::uint64_t bytes = 0;
+  std::string provenance = {};  ///< JSON text of what it was made of; empty: it does not say
+  std::optional<std::vector<BrokenRule>> broken = {};  ///< none: there are no rules for its format
+};
+
 struct CharacterDiff {
   double diagonal = 0;  ///< metres, of A
   Correspondence same;
   StructureDiff structure;
+  std::vector<std::string> provenance;  ///< one sentence for each thing that they were made of otherwise
+  std::vector<RuleDelta> rules;         ///< broken a different number of times
   GeometryDiff geometry;
   SkinDiff skin;
   std::vector<ClipDiff> clips;        ///< in A's order
@@ -99,8 +125,8 @@ struct CharacterDiff {
 };
 
 struct DiffOptions {
-  std::uint64_t bytes_a = 0, bytes_b = 0;  ///< sizes of the files, for the counts
-  bool wants_vertices = false;             ///< fill in ClipDiff::vertex_max, for which every vertex is posed
+  FileFacts a = {}, b = {};     ///< of both files
+  bool wants_vertices = false;  ///< fill in ClipDiff::vertex_max, for which every vertex is posed
 };
 
 /// Compares two sound characters. Both may be anything; without a mesh the distances are 0. Parallel over

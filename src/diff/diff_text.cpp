@@ -24,6 +24,8 @@ constexpr std::array kCounts = {Count{"bytes", &CharacterCounts::bytes},
                                 Count{"components", &CharacterCounts::components},
                                 Count{"open edges", &CharacterCounts::open_edges},
                                 Count{"non-manifold edges", &CharacterCounts::non_manifold_edges},
+                                Count{"genus", &CharacterCounts::genus},
+                                Count{"boundary loops", &CharacterCounts::boundary_loops},
                                 Count{"parts", &CharacterCounts::parts},
                                 Count{"materials", &CharacterCounts::materials},
                                 Count{"images", &CharacterCounts::images},
@@ -68,6 +70,23 @@ std::string geometry_text(const GeometryDiff& g) {
       "area {:.6g} -> {:.6g} m²{}, volume {:.6g} -> {:.6g} m³{}, {:.4g} % of the vertices unmoved\n",
       g.area_a, g.area_b, change_text(g.area_a, g.area_b), g.volume_a, g.volume_b,
       change_text(g.volume_a, g.volume_b), 100 * g.unchanged);
+}
+
+std::string uv_text(const UvMeasures& a, const UvMeasures& b) {
+  if (a.triangles + a.flat + b.triangles + b.flat == 0) return "";
+  return fmt::format(
+      "UV stretch {:.4g} -> {:.4g}, largest {:.4g} -> {:.4g}; {:.4g} % -> {:.4g} % of their area used more "
+      "than once; {} -> {} triangles below a texel\n",
+      a.stretch, b.stretch, a.stretch_max, b.stretch_max, 100 * a.overlap, 100 * b.overlap, a.flat, b.flat);
+}
+
+std::string files_text(const CharacterDiff& diff) {
+  std::string text;
+  for (const std::string& sentence : diff.provenance) text += "  provenance, " + printable(sentence) + "\n";
+  for (const RuleDelta& rule : diff.rules)
+    text += fmt::format("  glTF {} {}: {} -> {}\n", rule.is_error ? "error" : "warning", printable(rule.code),
+                        rule.in_a, rule.in_b);
+  return text;
 }
 
 std::string influences_text(const std::vector<std::size_t>& counts) {
@@ -123,6 +142,24 @@ json to_json(const CornerDiff& c) {
   return {{"max", c.max}, {"mean", c.mean}, {"joint", c.joint}, {"compared", c.compared}};
 }
 
+json to_json(const UvMeasures& uv) {
+  return {{"stretch", uv.stretch},
+          {"stretch_max", uv.stretch_max},
+          {"overlap", uv.overlap},
+          {"triangles", uv.triangles},
+          {"flat_triangles", uv.flat}};
+}
+
+json to_json(const std::vector<RuleDelta>& rules) {
+  json list = json::array();
+  for (const RuleDelta& rule : rules)
+    list.push_back({{"code", rule.code},
+                    {"severity", rule.is_error ? "error" : "warning"},
+                    {"a", rule.in_a},
+                    {"b", rule.in_b}});
+  return list;
+}
+
 json to_json(const PictureDiff& p) {
   return {{"camera", p.camera},
           {"clip", p.clip.empty() ? json() : json(p.clip)},
@@ -141,7 +178,9 @@ std::string to_text(const CharacterDiff& diff, const std::vector<DiffFinding>& f
   if (diff.geometry.unmatched_a + diff.geometry.unmatched_b > 0)
     text += fmt::format("  {} vertices of A and {} of B have no counterpart\n", diff.geometry.unmatched_a,
                         diff.geometry.unmatched_b);
-  text += geometry_text(diff.geometry) + skin_text(diff.skin);
+  text += files_text(diff);
+  text += geometry_text(diff.geometry) + uv_text(diff.geometry.uv_a, diff.geometry.uv_b);
+  text += skin_text(diff.skin);
   text += clips_text(diff.clips) + pictures_text(diff.pictures);
   for (const DiffFinding& f : findings)
     text +=
@@ -159,6 +198,8 @@ json to_json(const CharacterDiff& diff, const std::vector<DiffFinding>& findings
       {"diagonal_metres", diff.diagonal},
       {"structure",
        {{"a", to_json(diff.structure.a)}, {"b", to_json(diff.structure.b)}, {"edits", diff.structure.edits}}},
+      {"provenance", diff.provenance},
+      {"rules", to_json(diff.rules)},
       {"geometry",
        {{"max", diff.geometry.max},
         {"p99", diff.geometry.p99},
@@ -171,7 +212,9 @@ json to_json(const CharacterDiff& diff, const std::vector<DiffFinding>& findings
         {"volume_a", diff.geometry.volume_a},
         {"volume_b", diff.geometry.volume_b},
         {"normals_deg", to_json(diff.geometry.normals_deg)},
-        {"uvs", to_json(diff.geometry.uvs)}}},
+        {"uvs", to_json(diff.geometry.uvs)},
+        {"uv_a", to_json(diff.geometry.uv_a)},
+        {"uv_b", to_json(diff.geometry.uv_b)}}},
       {"skin",
        {{"max", diff.skin.max},
         {"mean", diff.skin.mean},

@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "diff/topology_diff.h"
+#include "geometry/genus.h"
 #include "geometry/mesh_measures.h"
 
 namespace skinforge {
@@ -116,6 +117,9 @@ CharacterCounts count(const Character& character) {
   counts.components = topology.components;
   counts.open_edges = topology.boundary_edges;
   counts.non_manifold_edges = topology.non_manifold_edges;
+  const SurfaceGenus genus = measure_genus(character.mesh);
+  counts.genus = genus.handles;
+  counts.boundary_loops = genus.boundary_loops;
   counts.parts = character.mesh.parts.size();
   counts.materials = character.materials.size();
   counts.images = character.images.size();

@@ -5,7 +5,8 @@
 
 namespace skinforge {
 
-/// One sentence for each of triangles, components, open and non-manifold edges whose numbers differ. How far
+/// One sentence for each of triangles, components, open and non-manifold edges, genus and boundary loops that
+/// differ. How far
 /// vertices at one place were welded depends on who wrote the file, so where the sides' own counts differ
 /// they are counted anew with both laid on the same vertices: those of one place that have one counterpart
 /// are one.

@@ -8,6 +8,7 @@
 #include "diff/diff_text.h"
 #include "stages/compared_pictures.h"
 #include "stages/expect_stage.h"
+#include "stages/file_facts.h"
 #include "stages/golden_comparison.h"
 
 namespace skinforge {
@@ -25,10 +26,15 @@ DiffThresholds thresholds_of(const GoldenOptions& golden) {
 }
 
 // A GLB in hand as a character. What is odd about it was said where it was made.
-Character character_of(const StageInput& in, const std::string& artifact, const std::string& name) {
-  const InputFile file{name, in.get<Bytes>(artifact), in.digest(artifact)};
+struct Side {
+  Character character;
+  FileFacts facts;
+};
+
+Side side_of(const StageInput& in, const std::string& artifact, const std::string& name) {
+  const std::vector<InputFile> files{{name, in.get<Bytes>(artifact), in.digest(artifact)}};
   IssueSink known;
-  return build_character(read_scene({file}), name, known);
+  return {build_character(read_scene(files), name, known), facts_of(files)};
 }
 
 class Compare final : public Stage {
@@ -37,7 +43,7 @@ class Compare final : public Stage {
 
   StageInfo info() const override {
     return {.name = "compare",
-            .version = 2,
+            .version = 3,
             .reads = {names_.glb(), names_.golden()},
             .writes = {names_.comparison()}};
   }
@@ -45,14 +51,11 @@ class Compare final : public Stage {
 
   void run(const StageInput& in, StageOutput& out, IssueSink& issues) const override {
     GoldenComparison comparison;
-    const Bytes& golden = in.get<Bytes>(names_.golden());
-    const Bytes& made = in.get<Bytes>(names_.glb());
-    comparison.is_missing = golden.empty();
-    if (!golden.empty()) {
-      const Character a = character_of(in, names_.golden(), "golden.glb"),
-                      b = character_of(in, names_.glb(), "output.glb");
-      CharacterDiff diff = compare_characters(a, b, {.bytes_a = golden.size(), .bytes_b = made.size()});
-      add_pictures(a, b, diff);
+    comparison.is_missing = in.get<Bytes>(names_.golden()).empty();
+    if (!comparison.is_missing) {
+      const Side a = side_of(in, names_.golden(), "golden.glb"), b = side_of(in, names_.glb(), "output.glb");
+      CharacterDiff diff = compare_characters(a.character, b.character, {.a = a.facts, .b = b.facts});
+      add_pictures(a.character, b.character, diff);
       comparison.findings = judge(diff, thresholds_of(golden_));
       comparison.text = to_text(diff, comparison.findings);
     }

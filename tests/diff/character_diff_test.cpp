@@ -7,6 +7,7 @@
 
 #include "diff/correspondence.h"
 #include "diff/diff_text.h"
+#include "testing/shapes.h"
 #include "testing/toy_character.h"
 
 namespace skinforge {
@@ -149,7 +150,8 @@ TEST(CharacterDiff, CountsWhatDistancesDoNotShow) {
   b.mesh.face_part.pop_back();
   const CharacterDiff diff = compare_characters(a, b);
   EXPECT_EQ(diff.geometry.max, 0);
-  EXPECT_THAT(diff.structure.edits, ElementsAre("3 triangles, there were 4", "3 open edges, there were 0"));
+  EXPECT_THAT(diff.structure.edits, ElementsAre("3 triangles, there were 4", "3 open edges, there were 0",
+                                                "1 boundary loops, there were 0"));
   EXPECT_TRUE(is_over(judge(diff, {})));
 }
 
@@ -168,7 +170,35 @@ TEST(CharacterDiff, WeldingIsNoEdit) {
   EXPECT_THAT(compare_characters(b, a).structure.edits, IsEmpty());
   for (std::size_t v = 4; v < 7; ++v) b.mesh.positions[v] += Vec3(1, 1, 1);
   EXPECT_THAT(compare_characters(a, b).structure.edits,
-              ElementsAre("2 components, there were 1", "6 open edges, there were 0"));
+              ElementsAre("2 components, there were 1", "6 open edges, there were 0",
+                          "2 boundary loops, there were 0"));
+}
+
+// A ring in the place of a box: both are closed, what differs is the genus.
+TEST(CharacterDiff, CountsHandles) {
+  Character a;
+  a.mesh = testing::polygon_mesh(testing::cube_soup());
+  for (int v = 0; v < 8; ++v) a.weights.push_row(std::vector<Influence>{});
+  Character b = a;
+  b.mesh = testing::polygon_mesh(testing::torus_knot_soup(12, 5));
+  b.weights = {};
+  for (std::size_t v = 0; v < b.mesh.vertex_count(); ++v) b.weights.push_row(std::vector<Influence>{});
+  EXPECT_THAT(compare_characters(a, b).structure.edits, Contains("genus 1, it was 0"));
+  EXPECT_EQ(compare_characters(b, b).structure.a.genus, 1U);
+  EXPECT_THAT(compare_characters(b, b).structure.edits, IsEmpty());
+}
+
+// By hand: each face of the toy's body has the whole texture, so all of it is used more than once.
+TEST(CharacterDiff, MeasuresUvs) {
+  const Character a = ToyCharacter::make();
+  Character b = a;
+  for (Vec2& uv : b.mesh.uvs[0]) uv /= 4;
+  const CharacterDiff diff = compare_characters(a, b);
+  EXPECT_EQ(diff.geometry.uv_a.overlap, 1);
+  EXPECT_GT(diff.geometry.uv_a.stretch, 1);
+  EXPECT_NEAR(diff.geometry.uv_b.stretch, diff.geometry.uv_a.stretch, kRounding);
+  EXPECT_THAT(to_text(diff, {}), HasSubstr("100 % -> 100 % of their area used more than once"));
+  EXPECT_EQ(to_json(diff, {}).at("geometry").at("uv_b").at("overlap"), 1);
 }
 
 // Law: between characters of one box it does not matter which is A.

@@ -65,6 +65,19 @@ TEST_F(Goal13, DiffOfAFileAndItselfIsNothing) {
   EXPECT_EQ(worst_clip(same).at("max"), 0);
   EXPECT_TRUE(same.at("structure").at("edits").empty());
   EXPECT_TRUE(same.at("drawn_alike").get<bool>());
+  EXPECT_TRUE(same.at("rules").empty() && same.at("provenance").empty());
+  EXPECT_EQ(same.at("geometry").at("uv_a"), same.at("geometry").at("uv_b"));
+  EXPECT_EQ(same.at("/structure/a/genus"_json_pointer), 0);
+}
+
+// The file as it came names a wrong root of its skin. That our repair took it away is no fault, the other way
+// it is.
+TEST_F(Goal13, DiffTellsRulesThatOnlyTheNewFileBreaks) {
+  ASSERT_EQ(call({"repair", horse, "-o", "sound.glb"}).status, 0);
+  EXPECT_EQ(diff("sound.glb", 0).at("rules").at(0).at("b"), 0);
+  const json back = answer({"diff", "sound.glb", horse}, 5);
+  EXPECT_EQ(back.at("/structure/edits"_json_pointer), json({"glTF error SKIN_SKELETON_INVALID is new"}));
+  EXPECT_EQ(call({"diff", "sound.glb", horse, "--threshold", "structure=any"}).status, 0);
 }
 
 // Blender keeps what is seen, to a few float steps, and samples every joint at every frame.

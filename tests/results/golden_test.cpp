@@ -102,6 +102,8 @@ TEST_F(Goal13Golden, ADifferenceIsToldEverywhere) {
   EXPECT_TRUE(is_over);
   EXPECT_THAT(report().at("issues").dump(), HasSubstr("golden-different"));
   EXPECT_NE(read_text(folder / "out/tail.glb"), golden);
+  const json provenance = answer({"diff", "golden/tail.glb", "out/tail.glb"}, 5).at("provenance");
+  EXPECT_THAT(provenance.dump(), ContainsRegex("^\\[\"recipe: [0-9a-f]{12} -> [0-9a-f]{12}\"\\]$"));
   EXPECT_EQ(read_text(folder / "golden/tail.glb"), golden);
 }
 

@@ -51,6 +51,11 @@ function side_by_side(diff) {
   const of_a = skin.vertices_by_influences_a, of_b = skin.vertices_by_influences_b;
   for (let n = 0; n < Math.max(of_a.length, of_b.length); ++n)
     if (of_a[n] || of_b[n]) rows.push({ name: `vertices that follow ${count_text(n, 'joint')}`, a: of_a[n] ?? 0, b: of_b[n] ?? 0 });
+  const { uv_a, uv_b } = geometry;
+  if (uv_a.triangles || uv_b.triangles)
+    rows.push({ name: 'UV stretch (L2)', a: uv_a.stretch, b: uv_b.stretch },
+      { name: 'UV stretch, largest', a: uv_a.stretch_max, b: uv_b.stretch_max },
+      { name: 'UV area used more than once, %', a: 100 * uv_a.overlap, b: 100 * uv_b.overlap });
   rows.push({ name: 'area, m²', a: geometry.area_a, b: geometry.area_b },
     { name: 'volume, m³', a: geometry.volume_a, b: geometry.volume_b });
   return rows;
@@ -60,10 +65,11 @@ function counts_section(diff) {
   const text = (n) => (Number.isInteger(n) ? grouped(n) : String(Number(n.toPrecision(6))));
   const columns = [['', (row) => row.name], ['A', (row) => text(row.a), 'number'], ['B', (row) => text(row.b), 'number'],
     ['', (row) => (row.a === row.b ? '' : row.a ? `× ${short_number(row.b / row.a)}` : 'new'), 'number']];
-  const { edits } = diff.structure;
+  const sentences = [...diff.structure.edits, ...diff.provenance.map((other) => `provenance, ${other}`),
+    ...diff.rules.map((rule) => `glTF ${rule.severity} ${rule.code}: ${rule.a} → ${rule.b}`)];
   return section('structure', 'Structure', [table(columns, side_by_side(diff), (row) => (row.a === row.b ? null : 'changed')),
     make('p', { class: 'hint' }, `${short_number(100 * diff.geometry.unchanged)} % of the vertices are at the same place.`),
-    edits.length ? make('ul', null, edits.map((edit) => make('li', null, edit))) : null]);
+    sentences.length ? make('ul', null, sentences.map((text) => make('li', null, text))) : null]);
 }
 
 // The drawings with what differs, the most changed first.
