@@ -28,13 +28,15 @@ std::uint32_t word(std::span<const std::byte> bytes, std::size_t offset) {
 
 void check_header(std::span<const std::byte> file) {
   if (file.size() >= sizeof kMagic && word(file, 0) != kMagic)
-    bad("not a GLB file: it does not start with \"glTF\"");
+    bad("not a GLB file: it does not start with \"glTF\"; export the model as .glb, or call the file what it "
+        "is");
   if (file.size() < kHeaderSize)
-    bad(fmt::format("truncated GLB: the header has {} bytes, file has {}", kHeaderSize, file.size()));
+    bad(fmt::format("truncated GLB: the header has {} bytes, file has {}; copy it anew", kHeaderSize,
+                    file.size()));
   if (word(file, 4) != 2) bad(fmt::format("GLB version {}, wanted 2", word(file, 4)));
   const std::size_t length = word(file, 8);
   if (length > file.size())
-    bad(fmt::format("truncated GLB: header says {} bytes, file has {}", length, file.size()));
+    bad(fmt::format("truncated GLB: header says {} bytes, file has {}; copy it anew", length, file.size()));
   if (length < file.size()) bad(fmt::format("GLB: header says {} bytes, file has {}", length, file.size()));
 }
 

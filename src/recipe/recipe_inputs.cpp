@@ -27,7 +27,8 @@ void read_painted_handles(const ValueReader& reader, RecipeBind& bind) {
     if (!color) value.fail_expected("a colour such as \"#ff8000\"");
     bind.colors[joint] = *color;
   }
-  if (bind.colors.empty()) object.at("colors").fail("expected at least one joint");
+  if (bind.colors.empty())
+    object.at("colors").fail("expected at least one joint, such as \"Head\": \"#ff8000\"");
 }
 
 void read_handles(const ValueReader& reader, RecipeBind& bind) {
@@ -74,7 +75,7 @@ RecipeInput read_input(const std::string& name, const ValueReader& reader, const
   if (!reader.is_object()) reader.fail_expected("a path, or an object with \"file\" or \"recipe\"");
   const ObjectReader object = reader.object({"file", "recipe", "clips", "bind", "pose"});
   const auto file = object.find("file"), recipe = object.find("recipe");
-  if (!file == !recipe) reader.fail("expected one of \"file\" and \"recipe\"");
+  if (!file == !recipe) reader.fail("expected one of \"file\" and \"recipe\", not none and not both");
   input.file = read_path(file ? *file : *recipe);
   if (recipe) input.recipe = std::make_shared<const Recipe>(included(*recipe, input.file.resolved));
   if (const auto clips = object.find("clips"))
@@ -97,7 +98,7 @@ std::vector<RecipeInput> read_inputs(const ValueReader& reader, const ReadInclud
                              printable(name)));
     inputs.push_back(read_input(name, value, included));
   }
-  if (inputs.empty()) reader.fail("expected at least one input");
+  if (inputs.empty()) reader.fail("expected at least one input, such as \"horse\": \"horse.glb\"");
   std::sort(inputs.begin(), inputs.end(),
             [](const RecipeInput& a, const RecipeInput& b) { return a.name < b.name; });
   return inputs;

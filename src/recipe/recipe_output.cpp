@@ -28,7 +28,8 @@ ExpectedRange read_range(const ValueReader& reader) {
   if (const auto least = object.find("min")) range.min = least->number(0, kMaxLength * 1e3);
   if (const auto most = object.find("max")) range.max = most->number(0, kMaxLength * 1e3);
   if (!range.min && !range.max) reader.fail("expected \"min\", \"max\" or both");
-  if (range.min && range.max && *range.min > *range.max) reader.fail("\"min\" is above \"max\"");
+  if (range.min && range.max && *range.min > *range.max)
+    reader.fail("\"min\" is above \"max\"; exchange them");
   return range;
 }
 

@@ -9,7 +9,7 @@ constexpr double kLeastVoxel = 1e-6, kMostVoxel = 1e6;  // ours: metres; beside 
 
 void read_voxel(const ObjectReader& object, SurfaceOptions& options) {
   const auto factor = object.find("voxel_factor"), edge = object.find("voxel");
-  if (factor && edge) edge->fail("expected one of \"voxel\" and \"voxel_factor\"");
+  if (factor && edge) edge->fail("expected one of \"voxel\" and \"voxel_factor\"; leave one out");
   if (factor) options.voxel_factor = factor->number(0.1, 4), options.voxel = 0;
   if (edge) options.voxel = edge->number(kLeastVoxel, kMostVoxel);
 }

@@ -52,10 +52,10 @@ std::vector<std::string> read_joints(const ValueReader& reader) {
   for (const ValueReader& item : reader.items()) {
     const std::string joint = item.text();
     if (std::find(joints.begin(), joints.end(), joint) != joints.end())
-      item.fail("joint \"" + printable(joint) + "\" is listed twice");
+      item.fail("joint \"" + printable(joint) + "\" is listed twice; leave one out");
     joints.push_back(joint);
   }
-  if (joints.empty()) reader.fail("expected at least one joint");
+  if (joints.empty()) reader.fail("expected at least one joint, such as \"Neck1\"");
   return joints;
 }
 
@@ -71,7 +71,7 @@ std::vector<std::string> read_clip_names(const ValueReader& reader) {
   for (const ValueReader& item : reader.items()) {
     const std::string clip = item.text();
     if (std::find(names.begin(), names.end(), clip) != names.end())
-      item.fail("clip \"" + printable(clip) + "\" is listed twice");
+      item.fail("clip \"" + printable(clip) + "\" is listed twice; leave one out");
     names.push_back(clip);
   }
   return names;

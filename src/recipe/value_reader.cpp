@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "recipe/schema_properties.h"
 
 namespace skinforge {
 
@@ -103,6 +104,16 @@ std::size_t ValueReader::index_of_word(const std::vector<std::string>& names) co
                    is_string() ? nearest_hint(value_->text, names) : ""));
 }
 
+namespace {
+// What the schema gives as an example of a property.
+std::string example_of(const std::string& pointer, std::string_view key) {
+  for (const SchemaProperty& property : schema_properties())
+    if (!property.examples.empty() && matches_pattern(property.pattern, pointer))
+      return fmt::format(", such as \"{}\": {}", key, property.examples.front());
+  return "";
+}
+}  // namespace
+
 std::optional<ValueReader> ObjectReader::find(std::string_view key) const {
   for (auto& [name, reader] : reader_.members())
     if (name == key) return reader;
@@ -111,7 +122,9 @@ std::optional<ValueReader> ObjectReader::find(std::string_view key) const {
 
 ValueReader ObjectReader::at(std::string_view key) const {
   auto found = find(key);
-  if (!found) reader_.fail(fmt::format("missing key \"{}\"", key));
+  if (!found)
+    reader_.fail(
+        fmt::format("missing key \"{}\"{}", key, example_of(pointer_to(reader_.pointer(), key), key)));
   return *found;
 }
 

@@ -24,6 +24,8 @@ class ValueReader {
   const Value& value() const { return *value_; }
   /// The file that messages name.
   const std::string& file() const { return *file_; }
+  /// JSON pointer of the value.
+  const std::string& pointer() const { return pointer_; }
   bool is_string() const { return value_->kind == Value::Kind::String; }
   bool is_object() const { return value_->kind == Value::Kind::Object; }
   bool is_array() const { return value_->kind == Value::Kind::Array; }
@@ -66,7 +68,7 @@ class ObjectReader {
   explicit ObjectReader(ValueReader reader) : reader_(std::move(reader)) {}
 
   std::optional<ValueReader> find(std::string_view key) const;
-  /// Like `find`; a missing key is an error.
+  /// Like `find`; a missing key is an error, which gives the schema's example of it.
   ValueReader at(std::string_view key) const;
   const ValueReader& reader() const { return reader_; }
 

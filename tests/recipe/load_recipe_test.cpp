@@ -206,18 +206,20 @@ TEST(LoadRecipe, NamesPlaceWantedAndFound) {
             "\"explode\" (nearest: \"replace\", \"remove\")");
   EXPECT_EQ(op(R"("remove", "at": 5)"),
             "centaur.json:2:24: /ops/0/at: expected a joint, or a list of joints, found the number 5");
-  EXPECT_EQ(op(R"("remove", "at": [])"), "centaur.json:2:24: /ops/0/at: expected at least one joint");
+  EXPECT_EQ(op(R"("remove", "at": [])"),
+            "centaur.json:2:24: /ops/0/at: expected at least one joint, such as \"Neck1\"");
   EXPECT_EQ(op(R"("remove", "at": ["j", "j"])"),
-            "centaur.json:2:30: /ops/0/at/1: joint \"j\" is listed twice");
+            "centaur.json:2:30: /ops/0/at/1: joint \"j\" is listed twice; leave one out");
   EXPECT_EQ(op(R"("remove", "at": "")"),
             "centaur.json:2:24: /ops/0/at: expected a string, found an empty one");
-  EXPECT_EQ(op(R"("remove")"), "centaur.json:2:1: /ops/0: missing key \"at\"");
+  EXPECT_EQ(op(R"("remove")"), "centaur.json:2:1: /ops/0: missing key \"at\", such as \"at\": \"Neck1\"");
   EXPECT_EQ(op(R"("remove", "at": "j", "from": "b")"),
             "centaur.json:2:37: /ops/0/from: \"from\" has no meaning here: this operation takes nothing from "
             "an input");
   EXPECT_EQ(op(R"("detach", "at": ["j", "k"])"),
             "centaur.json:2:24: /ops/0/at: this operation takes one joint");
-  EXPECT_EQ(op(R"("replace", "at": "j", "joint": "k")"), "centaur.json:2:1: /ops/0: missing key \"from\"");
+  EXPECT_EQ(op(R"("replace", "at": "j", "joint": "k")"),
+            "centaur.json:2:1: /ops/0: missing key \"from\", such as \"from\": \"man\"");
   EXPECT_EQ(op(R"("replace", "at": "j", "from": "c", "joint": "k")"),
             "centaur.json:2:38: /ops/0/from: no input \"c\"");
   const std::string part = R"("replace", "at": "j", "from": "b", "joint": "k", )";

@@ -237,7 +237,10 @@ std::vector<Fault> recipe_faults() {
   };
 }
 
-// Thirty faults: each has its status, its id, one line with the place, and the cause.
+// A hint is what was expected and found, the nearest word, an example, or what to do.
+constexpr const char* kHint = "expected .+, found |\\(nearest: \"|, such as |; |must |\\(this tool reads ";
+
+// Thirty faults: each has its status, its id, one line with the place, the cause and a hint.
 TEST_F(GoalsOfFaults, Goal15ThirtyFaultsAreTold) {
   fs::copy_file(folder / "human.glb", folder / "short.glb");
   fs::resize_file(folder / "short.glb", 20000);
@@ -255,6 +258,7 @@ TEST_F(GoalsOfFaults, Goal15ThirtyFaultsAreTold) {
     const std::string error = told.value("error", "");
     EXPECT_THAT(error, HasSubstr(fault.cause)) << fault.name;
     EXPECT_THAT(error, ContainsRegex("bad\\.json:[0-9]+:[0-9]+: ")) << fault.name;
+    EXPECT_THAT(error, ContainsRegex(kHint)) << fault.name;
     EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 0) << fault.name;
   }
 }
