@@ -126,7 +126,7 @@ coverage() {
   done
   llvm-profdata merge -o $profile/all.profdata $profile/*.profraw
   llvm-cov export "$fuzzer" -instr-profile $profile/all.profdata -summary-only \
-    src/base/{base64,file_digest,text}.cpp src/io/{gltf,build_character,fbx}_*.cpp src/io/glb_{container,stamp}.cpp src/io/png_chunks.cpp src/io/build_character.cpp src/io/{raw_scene_check,obj_check,dae_check,off_reader,tgf_reader,number_table,image_codec,inflate,trs}.cpp \
+    src/base/{base64,file_digest,text}.cpp src/io/{gltf,build_character,fbx}_*.cpp src/io/glb_{container,stamp}.cpp src/io/png_chunks.cpp src/io/build_character.cpp src/io/{raw_scene_check,obj_check,dae_check,dae_nodes,off_reader,tgf_reader,number_table,image_codec,inflate,trs}.cpp \
     src/pipeline/{cache,cache_gc,cache_usage,manifest,run_record}.cpp src/recipe/*.cpp | python3 -c '
 import json, sys
 files = []

@@ -33,7 +33,8 @@ WHOLE = {
                                         "loop": True, "use": ["Run"]}}},
     "correctives": {"method": "dqs", "targets": 4, "enough": 0.5},
     "output": {"glb": "a.glb", "obj": "a.obj", "vdb": "a.vdb", "animated": "all", "influences": 8},
-    "expect": {"triangles": {"min": 1, "max": 100}, "joints": 200, "watertight": True, "clip_names": ["Walk"]},
+    "expect": {"triangles": {"min": 1, "max": 100}, "joints": 200, "watertight": True, "clip_names": ["Walk"],
+               "golden": {"file": "g.glb", "geometry": "0.001%", "weights": 0.01, "animation": 0.05, "duration": 0.001, "structure": "any"}},
 }
 BOUND = {
     "recipe_version": 1, "name": "b", "base": "a",
@@ -43,7 +44,7 @@ BOUND = {
                     "examples": [{"shape": "../data/human.obj", "pose": "pose.dmat"}]},
 }
 LABELS = {"recipe_version": 1, "name": "c", "base": "a", "inputs": {"a": {"file": "a.obj", "bind": {"handles": "labels.json"}}},
-          "surface": {"voxel": 0.1, "hardness": 0.1, "include_parent": True}, "expect": {"triangles": {"min": 3, "max": 2}},
+          "surface": {"voxel": 0.1, "hardness": 0.1, "include_parent": True}, "expect": {"triangles": {"min": 3, "max": 2}, "golden": "g.glb"},
           "animation": {"clips": "all", "per_clip": {"Walk": {"with": "Run"}}}}
 SMALL = {"recipe_version": 1, "name": "d", "inputs": {"a": "../data/horse.glb"}, "base": "a", "ops": []}
 VARIED = {
