@@ -352,7 +352,8 @@ TEST(GltfReader, NamesBothLengthsOfATruncatedFile) {
   InputFile horse = read_input_file(testing::shared_file("assets/quaternius_horse/horse.glb"));
   horse.path = "horse.glb";
   horse.bytes.resize(20'000);
-  EXPECT_EQ(message({horse}), "horse.glb: truncated GLB: header says 682356 bytes, file has 20000; copy it anew");
+  EXPECT_EQ(message({horse}),
+            "horse.glb: truncated GLB: header says 682356 bytes, file has 20000; copy it anew");
 }
 
 }  // namespace
