@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "field/source_distance.h"
+#include "surface/fading.h"
 
 namespace skinforge {
 namespace {

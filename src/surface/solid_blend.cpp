@@ -1,10 +1,11 @@
 #include "surface/solid_blend.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "surface/fading.h"
 
 namespace skinforge {
 namespace {
@@ -20,39 +21,11 @@ constexpr double kReplaceRadius = 1.2;  // junction.md d.2: k0, of the thinner l
 const double kAligned = radians(20),
              kBent = radians(70);  // junction.md d.2: where auto begins and ends to change
 
-// Sums over the triangles where the presence of a solid changes.
-struct Fading {
-  Vec3 axis = Vec3::Zero();  // sum of area * gradient: towards growing presence
-  double slope = 0;          // sum of area * |gradient|: the length of the cut, all levels of presence alike
-  double squared = 0;        // sum of area * |gradient|^2
-};
-
-Fading fading_of(const FusionSolid& solid) {
-  Fading sum;
-  for (const Triangle& t : solid.triangles) {
-    const Vec3 e1 = solid.positions[t[1]] - solid.positions[t[0]],
-               e2 = solid.positions[t[2]] - solid.positions[t[0]];
-    const Vec3 cross = e1.cross(e2);
-    if (!(cross.squaredNorm() > 0)) continue;
-    const double d1 = solid.presence[t[1]] - solid.presence[t[0]],
-                 d2 = solid.presence[t[2]] - solid.presence[t[0]];
-    const Vec3 gradient = (d1 * e2 - d2 * e1).cross(cross) / cross.squaredNorm();
-    const double area = 0.5 * cross.norm();
-    sum.axis += area * gradient;
-    sum.slope += area * gradient.norm();
-    sum.squared += area * gradient.squaredNorm();
-  }
-  return sum;
-}
-
-// Angle between a host's axis, towards what stays of it, and the opposite of the donor's; 0 when either has
-// none.
 double bend_of(const std::vector<FusionSolid>& solids) {
   Vec3 host = Vec3::Zero(), donor = Vec3::Zero();
   for (const FusionSolid& solid : solids)
     if (!solid.is_added) (solid.is_host ? host : donor) += fading_of(solid).axis;
-  if (!(host.norm() > 0) || !(donor.norm() > 0)) return 0;
-  return std::acos(std::clamp(-host.normalized().dot(donor.normalized()), -1.0, 1.0));
+  return bend_between(host, donor);
 }
 
 double squared(double x) {
@@ -102,31 +75,13 @@ double replaced(const SiteBlend& blend, std::span<const SolidSample> samples, st
 
 }  // namespace
 
-double cut_girth(const FusionSolid& solid) {
-  double length = 0;
-  for (const Triangle& t : solid.triangles) {
-    std::array<Vec3, 3> crossing;
-    int found = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double a = solid.presence[t[k]] - 0.5, b = solid.presence[t[(k + 1) % 3]] - 0.5;
-      if ((a < 0) == (b < 0)) continue;
-      crossing[found++] =
-          solid.positions[t[k]] + a / (a - b) * (solid.positions[t[(k + 1) % 3]] - solid.positions[t[k]]);
-    }
-    if (found == 2) length += (crossing[1] - crossing[0]).norm();
-  }
-  return length;
-}
-
 SiteBlend site_blend(const std::vector<FusionSolid>& solids, const BlendOptions& options,
                      double union_radius) {
   SiteBlend blend{options.op, {}, bend_of(solids), 0, options.radius > 0 ? options.radius : union_radius};
   if (options.op == BlendOperator::Paper) blend.union_radius = 0;
   double thinnest = std::numeric_limits<double>::infinity(), narrowest = thinnest;
   for (const FusionSolid& solid : solids) {
-    const Fading fading = fading_of(solid);
-    const double width = fading.squared > 0 ? fading.slope / fading.squared : 0;
-    const double radius = cut_girth(solid) / (2 * std::numbers::pi);
+    const double width = fading_of(solid).width(), radius = cut_girth(solid) / (2 * std::numbers::pi);
     // Where all is present the trim is that far inside: more rounding would move the surface.
     blend.trims.push_back(
         {solid.is_added, width, std::min(kTrimRounding * radius, -trim_distance(1) * width)});

@@ -53,9 +53,6 @@ struct SiteBlend {
 SiteBlend site_blend(const std::vector<FusionSolid>& solids, const BlendOptions& options,
                      double union_radius);
 
-/// Length of the line of presence 1/2, metres: how far it is around the cut.
-double cut_girth(const FusionSolid& solid);
-
 /// What one solid says about one point.
 struct SolidSample {
   double distance = 0;  ///< delta_k, metres
