@@ -220,16 +220,19 @@ FaceGroups group_faces(const PolygonMesh& mesh, const EdgeList& edges, const Fac
   return groups;
 }
 
-// Chains of the border by the group of kept faces that they bound.
+// How many chains of the border each group of kept faces has. Groups that meet in a vertex may share a chain.
 std::map<std::int32_t, int> chains_of_groups(const PolygonMesh& mesh, const EdgeList& edges,
                                              const FaceSet& kept, const FaceGroups& groups) {
-  std::vector<std::int32_t> group_of_vertex(mesh.vertex_count(), -1);
-  for (std::size_t c = 0; c < mesh.corner_count(); ++c)
-    if (const FaceId f = edges.face_of_corner[c]; kept[f.index()])
-      group_of_vertex[mesh.corners[c].index()] = groups.of_face[f.index()];
+  std::map<VertexId, std::int32_t> group_before;  // of the kept face whose half-edge ends there
+  for (const auto& [vertex, corners] : arriving_corners(mesh, edges, kept))
+    group_before[vertex] = groups.of_face[edges.face_of_corner[corners.front()].index()];
   std::map<std::int32_t, int> count;
-  for (const BorderChain& chain : border_chains(mesh, edges, kept))
-    ++count[group_of_vertex[chain.vertices[0].index()]];
+  for (const BorderChain& chain : border_chains(mesh, edges, kept)) {
+    std::set<std::int32_t> bounded;
+    for (const VertexId v : chain.vertices)
+      if (const auto group = group_before.find(v); group != group_before.end()) bounded.insert(group->second);
+    for (const std::int32_t group : bounded) ++count[group];
+  }
   return count;
 }
 
@@ -255,8 +258,9 @@ void restore_broken_groups(const PolygonMesh& mesh, const EdgeList& edges, const
   const auto chains_before = chains_of_groups(mesh, edges, before, groups);
   const auto chains = chains_of_groups(mesh, edges, kept, groups);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    const auto group = chains.find(groups.of_face[f]);
-    if (before[f] && group != chains.end() && group->second > chains_before.at(group->first)) kept[f] = 1;
+    if (!before[f]) continue;
+    const auto had = chains_before.find(groups.of_face[f]), has = chains.find(groups.of_face[f]);
+    if (has != chains.end() && (had == chains_before.end() || has->second > had->second)) kept[f] = 1;
   }
 }
 
