@@ -1,23 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
-#include "stages/junction_symmetry.h"
+#include "stages/junction_rounds.h"
 #include "stages/stages.h"
 #include "stages/surface_options.h"
 #include "surface/junction_smoothing.h"
 
 namespace skinforge {
 namespace {
-
-// One round of making all junctions, and what it left of the sources.
-struct Round {
-  std::vector<PreservedSource> sources;
-  std::vector<Junction> junctions;  // per site
-  std::vector<int> arcs;            // per site
-  JunctionFaults faults;
-};
 
 /// M_J of every operation, and M_R (Sec. 6.1).
 class MakeJunctions final : public Stage {
@@ -50,11 +41,7 @@ class MakeJunctions final : public Stage {
     const std::vector<JunctionSite> sites = sites_of(in, placed, selections);
     std::vector<PreservedSource> sources;
     for (std::size_t s = 0; s < placed.size(); ++s) sources.push_back({&placed[s], selections[s]});
-    for (const JunctionSite& site : sites)
-      discard_moved_faces(sources, site.solids.participants, site.solids.solids, *site.field, site.first(),
-                          options_);
-    BuildSymmetry symmetry(sites, sources);
-    Round best = best_round(sites, symmetry, std::move(sources));
+    JunctionRound best = make_junctions(sites, std::move(sources), site_count_, options_);
     smooth(best, issues);
     for (const JunctionSite& site : sites)
       tell(best.junctions[site.first()], site.first(), best.arcs[site.first()], issues);
@@ -76,62 +63,7 @@ class MakeJunctions final : public Stage {
     return sites;
   }
 
-  // Where junctions cut preserved faces, those faces go and all junctions are made anew; of all rounds the
-  // one with the least faults counts.
-  Round best_round(const std::vector<JunctionSite>& sites, BuildSymmetry& symmetry,
-                   std::vector<PreservedSource> sources) const {
-    constexpr int kRounds = 4;  // ours: later rounds found nothing on the real characters
-    std::optional<Round> best;
-    for (int round = 0; round < kRounds; ++round) {
-      sources = symmetry.cleaned(std::move(sources), options_);
-      const KeptSurface kept = kept_surface(sources);
-      Round made = make_round(sites, symmetry, sources, kept);
-      std::size_t discarded = 0;
-      for (const JunctionSite& site : sites) {
-        const Junction& junction = made.junctions[site.first()];
-        if (junction.faults.self_intersections > 0)
-          discarded += discard_faces(sources, site.solids.participants,
-                                     faces_cut_by(junction.patch, junction.loops, kept), site.first());
-      }
-      if (!best || made.faults < best->faults) best = std::move(made);
-      if (discarded == 0) break;
-    }
-    return std::move(*best);
-  }
-
-  Round make_round(const std::vector<JunctionSite>& sites, const BuildSymmetry& symmetry,
-                   const std::vector<PreservedSource>& sources, const KeptSurface& kept) const {
-    Round round{sources, std::vector<Junction>(site_count_), std::vector<int>(site_count_, 0), {}};
-    for (const JunctionSite& site : sites) {
-      const std::size_t first = site.first();
-      round.junctions[first] = make_junction(site, symmetry.of(site, sources), round, kept);
-      round.faults += round.junctions[first].faults;
-      for (const std::size_t other : site.group)
-        if (other != first)
-          round.junctions[other].reason = fmt::format("joined in the junction of operation {}", first + 1);
-    }
-    return round;
-  }
-
-  // Of two junctions that are each other's images the second is the first one's image.
-  static Junction make_junction(const JunctionSite& site, JunctionSymmetry symmetry, Round& round,
-                                const KeptSurface& kept) {
-    auto loops = loops_of(round.sources, site, round.arcs[site.first()]);
-    const auto own = static_cast<std::int32_t>(site.first());
-    Junction junction;
-    if (symmetry.site >= 0 && symmetry.site < own) {
-      const Junction& other = round.junctions[static_cast<std::size_t>(symmetry.site)];
-      junction = mirrored_junction(other, other.symmetry.borders, std::move(loops));
-      junction.faults = faults_of(junction.patch, junction.loops, kept);
-    } else {
-      junction = build_junction(std::move(loops), *site.field, kept,
-                                symmetry.site == own ? &symmetry.borders : nullptr);
-    }
-    junction.symmetry = std::move(symmetry);
-    return junction;
-  }
-
-  void smooth(Round& round, IssueSink& issues) const {
+  void smooth(JunctionRound& round, IssueSink& issues) const {
     if (std::all_of(smoothing_.begin(), smoothing_.end(), [](int rounds) { return rounds == 0; })) return;
     const KeptSurface kept = kept_surface(round.sources);
     for (std::size_t k = 0; k < site_count_; ++k) {
