@@ -19,7 +19,8 @@ WHOLE = {
     "base": "horse",
     "ops": [
         {"op": "replace", "at": ["Neck"], "from": "human", "joint": "Hips",
-         "place": {"align": "loop", "scale": "loop", "rotate_deg": [0, 0, 0], "offset": [0, 0, 0]},
+         "place": {"align": "loop", "scale": "loop", "rotate_deg": [0, 0, 0], "offset": [0, 0, 0],
+                   "turn_limit_deg": 45},
          "blend": {"operator": "smin", "radius": 0.1}, "surface": SURFACE},
         {"op": "attach", "at": "Spine", "from": "human", "joint": "Arm", "place": {"align": "none", "scale": 2},
          "blend": "gradient"},

@@ -113,11 +113,13 @@ struct Placement {
   double scale = 1;  ///< > 0
   std::array<double, 3> rotate_deg = {0, 0, 0};  ///< x, y, z; R = Ry(y) Rx(x) Rz(z)
   std::array<double, 3> offset = {0, 0, 0};      ///< metres
+  /// A part whose surface would not join with its host's is turned back by at most this; [0, 180].
+  double turn_limit_deg = 90;
 
   auto operator<=>(const Placement&) const = default;
   template <class Archive>
   friend void fields(Archive& a, Placement& p) {
-    a(p.align, p.scale_by_loop, p.scale, p.rotate_deg, p.offset);
+    a(p.align, p.scale_by_loop, p.scale, p.rotate_deg, p.offset, p.turn_limit_deg);
   }
 };
 

@@ -27,7 +27,7 @@ void read_scale(const ValueReader& reader, Placement& place) {
 }
 
 Placement read_placement(const ValueReader& reader) {
-  const ObjectReader object = reader.object({"align", "scale", "rotate_deg", "offset"});
+  const ObjectReader object = reader.object({"align", "scale", "rotate_deg", "offset", "turn_limit_deg"});
   Placement place;
   if (const auto align = object.find("align"))
     place.align =
@@ -35,6 +35,7 @@ Placement read_placement(const ValueReader& reader) {
   if (const auto scale = object.find("scale")) read_scale(*scale, place);
   if (const auto rotate = object.find("rotate_deg")) place.rotate_deg = vector3(*rotate);
   if (const auto offset = object.find("offset")) place.offset = vector3(*offset);
+  if (const auto limit = object.find("turn_limit_deg")) place.turn_limit_deg = limit->number(0, 180);
   return place;
 }
 

@@ -27,6 +27,11 @@ Json placement() {
                                with_default(vector3("degrees"), defaults.rotate_deg), {{0, -90, 0}})},
       {"offset",
        described("Move at the end.", with_default(vector3("metres"), defaults.offset), {{0, 0.05, 0}})},
+      {"turn_limit_deg",
+       described(
+           "A part that stands at so sharp an angle to its host that their surfaces would not join is turned "
+           "back by at most this; 0: never.",
+           with_default(number(0, 180, "degree"), defaults.turn_limit_deg), {0})},
   });
 }
 

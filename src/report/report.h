@@ -59,6 +59,8 @@ struct OperationReport {
   double scale = 1;
   std::array<double, 4> rotation_xyzw = {0, 0, 0, 1};
   std::array<double, 3> translation = {0, 0, 0};
+  double bend_deg = 0;
+  double turned_deg = 0;
 };
 
 struct MappedJointReport {

@@ -80,6 +80,10 @@ void describe(const OperationReport& o, F& f) {
   f("scale", o.scale, "ratio", "Placement used: uniform scale of the input");
   f("rotation_xyzw", o.rotation_xyzw, "quaternion", "Placement used: rotation of the input, x y z w");
   f("translation", o.translation, "m", "Placement used: p -> scale * rotation * p + translation");
+  f("bend_deg", o.bend_deg, "deg",
+    "Angle between the part as the recipe places it and the line of its host; 0 = it goes on where the host "
+    "ends");
+  f("turned_deg", o.turned_deg, "deg", "Turned back by, because the surfaces would not join as placed");
 }
 
 template <class F>

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "field/blend.h"
 #include "io/import.h"
 #include "model/character.h"
 #include "skeleton/graft.h"
@@ -25,6 +27,7 @@ struct ArtifactNames {
   std::string imported(const std::string& input) const { return prefix + "imported:" + input; }
   std::string character(const std::string& input) const { return prefix + "character:" + input; }
   std::string contents(const std::string& input) const { return prefix + "contents:" + input; }
+  std::string asked_placement() const { return prefix + "asked_placement"; }
   std::string placement() const { return prefix + "placement"; }
   std::string graft() const { return prefix + "graft"; }
   std::string joint_maps() const { return prefix + "joint_maps"; }
@@ -117,6 +120,19 @@ void fields(Archive& a, ColorSteps& s) {
   a(s.edges, s.mean, s.p95, s.largest);
 }
 
+/// How the part of an operation meets its host, and what was changed about it so that their surfaces join
+/// (junction.md d.2).
+struct PartTurn {
+  double bend = 0;                  ///< as asked, radians; 0: the part goes on where the host ends
+  double angle = 0;                 ///< turned back by, radians
+  std::optional<BlendOperator> op;  ///< blended by this instead of what was asked
+
+  template <class Archive>
+  friend void fields(Archive& a, PartTurn& t) {
+    a(t.bend, t.angle, t.op);
+  }
+};
+
 /// The operations with their placements worked out (Sec. 4.1).
 struct PlacedOperations {
   std::vector<GraftOperation> operations;
@@ -124,10 +140,11 @@ struct PlacedOperations {
   /// for none. Only an input whose joints are matched in several places has any: the translations spread
   /// between them.
   std::vector<std::vector<Vec3>> joint_shifts;
+  std::vector<PartTurn> turns;  ///< per operation; empty as asked
 
   template <class Archive>
   friend void fields(Archive& a, PlacedOperations& p) {
-    a(p.operations, p.joint_shifts);
+    a(p.operations, p.joint_shifts, p.turns);
   }
 };
 

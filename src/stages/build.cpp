@@ -288,6 +288,7 @@ void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const A
   const std::vector<ClipRequest> clips = clip_requests(recipe, engine, names);
   const std::vector<std::string> sources = inputs_of_sources(recipe);
   engine.add(make_place_stage(names, recipe));
+  engine.add(make_turn_stage(names, recipe));
   engine.add(make_graft_skeleton_stage(names, recipe));
   engine.add(make_map_joints_stage(names, recipe));
   engine.add(make_select_stage(names, recipe));
@@ -312,6 +313,7 @@ void add_grafts(const Recipe& recipe, Engine& engine, ReportLevel level, const A
 void add_preview(const Recipe& recipe, Engine& engine, const ArtifactNames& names) {
   const std::vector<ClipRequest> clips = clip_requests(recipe, engine, names);
   engine.add(make_place_stage(names, recipe));
+  engine.add(make_turn_stage(names, recipe));
   engine.add(make_graft_skeleton_stage(names, recipe));
   engine.add(make_map_joints_stage(names, recipe));
   engine.add(make_preview_stage(names, recipe, clips));

@@ -18,11 +18,12 @@ class Field final : public Stage {
       : names_(std::move(names)), site_(site), options_(field_options(recipe.operations[site])) {}
 
   StageInfo info() const override {
-    return {.name = "field",
-            .instance = std::to_string(site_ + 1),
-            .version = 3,
-            .reads = {names_.graft(), names_.placed(), names_.selection(), names_.groups()},
-            .writes = {names_.field(site_)}};
+    return {
+        .name = "field",
+        .instance = std::to_string(site_ + 1),
+        .version = 4,
+        .reads = {names_.placement(), names_.graft(), names_.placed(), names_.selection(), names_.groups()},
+        .writes = {names_.field(site_)}};
   }
   void add_to_key(Hasher& key) const override {
     key.add_value("site", site_);
@@ -36,7 +37,10 @@ class Field final : public Stage {
       const SiteSolids solids =
           site_solids(in.get<Graft>(names_.graft()), group, in.get<std::vector<PolygonMesh>>(names_.placed()),
                       in.get<std::vector<SourceSelection>>(names_.selection()));
-      if (solids.can_blend()) field = build_site_field(solids.solids, options_for(solids.solids));
+      FieldOptions options = options_for(solids.solids);
+      const auto& turns = in.get<PlacedOperations>(names_.placement()).turns;
+      options.blend.op = turns[site_].op.value_or(options.blend.op);
+      if (solids.can_blend()) field = build_site_field(solids.solids, options);
     }
     out.put(names_.field(site_), std::move(field));
   }

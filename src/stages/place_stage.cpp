@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include "geometry/edges.h"
 #include "skeleton/pose.h"
 #include "stages/inputs.h"
+#include "stages/operation_sides.h"
 #include "stages/stages.h"
 #include "surface/cut_line.h"
-#include "surface/selection.h"
 
 namespace skinforge {
 namespace {
@@ -20,42 +19,20 @@ GraftKind to_kind(OperationKind kind) {
 
 // The cut that taking `joints` and all below them leaves on a character: its line of presence 1/2.
 std::optional<CutLine> cut_line_of(const Character& character, std::span<const JointId> joints) {
-  std::vector<bool> removed(character.skeleton.size(), false);
-  for (const JointId joint : joints) {
-    const std::vector<bool> below = character.skeleton.subtree(joint);
-    for (std::size_t j = 0; j < removed.size(); ++j) removed[j] = removed[j] || below[j];
-  }
-  return longest_cut_line(character.mesh, presence_of_cut(character.mesh, character.weights, removed, {}));
+  return longest_cut_line(character.mesh, presence_without(character, joints));
 }
 
-// The host of one operation as the operations before it left it.
-struct Host {
-  Vec3 joint_centre = Vec3::Zero();  // mean position of the `at` joints, model space
-  std::optional<CutLine> cut;        // model space
-};
-
-Host find_host(const std::vector<const Character*>& characters, const Graft& graft,
-               const GraftOperation& operation) {
-  Host host;
-  std::vector<JointId> joints;
-  SourceId source;
-  for (const std::string& name : operation.at) {
-    const std::optional<JointId> joint = graft.skeleton.find(name);
-    if (!joint) continue;  // graft_skeletons says it better
-    const JointOrigin& origin = graft.origins[joint->index()];
-    if (!source.is_valid()) source = origin.source;
-    if (origin.source == source) joints.push_back(origin.joint);
-    host.joint_centre += graft.skeleton[*joint].joint_from_model.inverse().translation() /
-                         static_cast<double>(operation.at.size());
+// Where an operation cuts its host, model space.
+std::optional<CutLine> cut_line_of(const std::vector<const Character*>& characters, const Graft& graft,
+                                   const HostSide& host) {
+  if (host.joints.empty()) return std::nullopt;
+  const GraftSource& placed = graft.sources[host.source.index()];
+  std::optional<CutLine> cut = cut_line_of(*characters[placed.input], host.joints);
+  if (cut) {
+    cut->centre = placed.model_from_input * cut->centre;
+    cut->length *= placed.model_from_input.scale;
   }
-  if (joints.empty()) return host;
-  const GraftSource& placed = graft.sources[source.index()];
-  host.cut = cut_line_of(*characters[placed.input], joints);
-  if (host.cut) {
-    host.cut->centre = placed.model_from_input * host.cut->centre;
-    host.cut->length *= placed.model_from_input.scale;
-  }
-  return host;
+  return cut;
 }
 
 /// Works out where each grafted input goes; the paper's default brings joint onto joint (Sec. 4.1).
@@ -72,7 +49,7 @@ class Place final : public Stage {
     return {.name = "place",
             .version = 2,
             .reads = character_names(names_, inputs_),
-            .writes = {names_.placement()}};
+            .writes = {names_.asked_placement()}};
   }
 
   void add_to_key(Hasher& key) const override {
@@ -109,7 +86,7 @@ class Place final : public Stage {
       placed.operations.push_back(std::move(operation));
     }
     placed.joint_shifts = spread_shifts(characters, placed.operations);
-    out.put(names_.placement(), std::move(placed));
+    out.put(names_.asked_placement(), std::move(placed));
   }
 
  private:
@@ -125,16 +102,17 @@ class Place final : public Stage {
     if (place.align == Align::None) return result;
     const Character& donor = *characters[operation.input];
     const JointId joint = require_joint(donor.skeleton, operation.joint, wanted.from);
-    const Host host = find_host(characters, graft, operation);
+    const HostSide host = host_side(graft, operation);
+    const std::optional<CutLine> host_cut = cut_line_of(characters, graft, host);
     const std::optional<CutLine> cut = cut_line_of(donor, std::vector<JointId>{joint});
-    const bool has_loops = host.cut && cut && operation.kind == GraftKind::Replace;
+    const bool has_loops = host_cut && cut && operation.kind == GraftKind::Replace;
     if (!has_loops && (place.align == Align::Loop || place.scale_by_loop))
       issues.warn("no-cut-loop", fmt::format("op {}", wanted.joint),
                   "no cut loop on both sides to align by: the joints are aligned instead");
-    if (place.scale_by_loop && has_loops) result.scale = host.cut->length / cut->length;
+    if (place.scale_by_loop && has_loops) result.scale = host_cut->length / cut->length;
     const bool by_loop = place.align == Align::Loop && has_loops;
     const Vec3 from = by_loop ? cut->centre : donor.skeleton[joint].joint_from_model.inverse().translation();
-    const Vec3 to = by_loop ? host.cut->centre : host.joint_centre;
+    const Vec3 to = by_loop ? host_cut->centre : host.centre;
     result.translation = to - result.scale * (result.rotation * from) + to_vec3(place.offset);
     return result;
   }

@@ -97,7 +97,7 @@ class MakeReport final : public Stage {
     StageInfo info{.name = "report",
                    .version = 3,
                    .reads = joined(joined(character_names(names_, inputs_), contents_names(names_, inputs_)),
-                                   {names_.graft(), names_.joint_maps(), names_.surface(),
+                                   {names_.placement(), names_.graft(), names_.joint_maps(), names_.surface(),
                                     names_.weight_record(), names_.color_steps(), names_.result(),
                                     names_.glb(), names_.obj(), names_.validation()}),
                    .writes = {names_.report()}};
@@ -128,7 +128,7 @@ class MakeReport final : public Stage {
     report.tool.version = kVersion;
     report.recipe = {name_, recipe_digest_};
     add_inputs(in, characters, report);
-    add_operations(graft, report);
+    add_operations(graft, in.get<PlacedOperations>(names_.placement()).turns, report);
     add_joints(in, characters, graft, report);
     const auto& color = in.get<std::vector<ColorSteps>>(names_.color_steps());
     for (std::size_t k = 0; k < site_count_; ++k)
@@ -190,9 +190,12 @@ class MakeReport final : public Stage {
     return report;
   }
 
-  void add_operations(const Graft& graft, Report& report) const {
-    for (const GraftSite& site : graft.sites) {
+  void add_operations(const Graft& graft, const std::vector<PartTurn>& turns, Report& report) const {
+    for (std::size_t k = 0; k < graft.sites.size(); ++k) {
+      const GraftSite& site = graft.sites[k];
       OperationReport r;
+      r.bend_deg = degrees(turns[k].bend);
+      r.turned_deg = degrees(turns[k].angle);
       r.kind = name_of(site.kind);
       for (const auto& [source, joint] : site.at) r.at.push_back(joint_name(graft, source, joint));
       if (site.donor.is_valid()) {

@@ -51,8 +51,12 @@ StagePointer make_pose_stage(const ArtifactNames& names, const RecipeInput& inpu
 StagePointer make_adopt_stage(const ArtifactNames& names, const ArtifactNames& nested,
                               const RecipeInput& input);
 
-/// character:* -> placement: operations with their placements (Sec. 4.1).
+/// character:* -> asked_placement: operations with their placements (Sec. 4.1).
 StagePointer make_place_stage(const ArtifactNames& names, const Recipe& recipe);
+
+/// character:*, asked_placement -> placement: parts turned back whose surfaces would not join (Sec. 4.1, Fig.
+/// 17).
+StagePointer make_turn_stage(const ArtifactNames& names, const Recipe& recipe);
 
 /// character:*, placement -> graft (Sec. 4).
 StagePointer make_graft_skeleton_stage(const ArtifactNames& names, const Recipe& recipe);
@@ -108,7 +112,8 @@ StagePointer make_correct_stage(const ArtifactNames& names, const Recipe& recipe
 StagePointer make_export_stage(const ArtifactNames& names, const Recipe& recipe,
                                std::span<const ClipRequest> clips);
 
-/// glb, result, issues of the imports -> validation: the file read back and compared. What an input has is no fault.
+/// glb, result, issues of the imports -> validation: the file read back and compared. What an input has is no
+/// fault.
 StagePointer make_validate_stage(const ArtifactNames& names, const Recipe& recipe);
 
 /// result, surface, quality:* -> picture:*.

@@ -50,7 +50,7 @@ constexpr const char* kCentaur = R"({ // the recipe of the README, with every ke
               "horse": "horse.glb" },
   "base": "horse",
   "ops": [ { "op": "replace", "at": "Neck1", "from": "man", "joint": "Spine", "blend": "blend",
-             "place": { "align": "loop", "scale": "loop", "rotate_deg": [0,-90,0], "offset": [0,0,0.5] } },
+             "place": { "align": "loop", "scale": "loop", "rotate_deg": [0,-90,0], "offset": [0,0,0.5], "turn_limit_deg": 30 } },
            { "op": "attach", "at": "Torso", "from": "man", "joint": "Arm", "place": { "scale": 1.5, "align": "none" } },
            { "op": "remove", "at": ["Tail1", "Tail2"] },
            { "op": "detach", "at": "Hips" } ],
@@ -86,6 +86,8 @@ TEST(LoadRecipe, ReadsEveryKey) {
   EXPECT_EQ(replace.place.scale, 1);
   EXPECT_EQ(replace.place.rotate_deg[1], -90);
   EXPECT_EQ(replace.place.offset[2], 0.5);
+  EXPECT_EQ(replace.place.turn_limit_deg, 30);
+  EXPECT_EQ(recipe.operations[1].place.turn_limit_deg, 90);
   EXPECT_EQ(recipe.operations[1].place.scale, 1.5);
   EXPECT_EQ(recipe.operations[1].place.align, Align::None);
   EXPECT_EQ(recipe.operations[2].kind, OperationKind::Remove);

@@ -110,6 +110,7 @@ std::vector<Flip> flips() {
       {"/ops/*/place/scale", "/ops/0/place/scale", 1.3},
       {"/ops/*/place/rotate_deg", "/ops/0/place/rotate_deg", {0, 1, 0}},
       {"/ops/*/place/offset", "/ops/0/place/offset", {0, 0, 0}},
+      {"/ops/*/place/turn_limit_deg", "/ops/0/place/turn_limit_deg", 30},
       {"/ops/*/blend", "/ops/0/blend", "smin"},
       {"/ops/*/blend/operator", "/ops/0/blend", {{"operator", "gradient"}}},
       {"/ops/*/blend/radius", "/ops/0/blend", {{"radius", 0.05}}},
