@@ -50,15 +50,25 @@ struct Facing {
   double length = 0;
 };
 
+double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 along = b - a;
+  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (p - (a + t * along)).squaredNorm();
+}
+
 Facing facing_border(const std::vector<Vec3>& ring, const std::vector<JunctionLoop>& loops, double reach) {
   std::vector<int> votes(loops.size(), 0);
   double sum = 0;
   for (const Vec3& p : ring) {
     double nearest = std::numeric_limits<double>::infinity();
     std::size_t best = 0;
-    for (std::size_t l = 0; l < loops.size(); ++l)
-      for (const Vec3& q : loops[l].positions)
-        if ((p - q).squaredNorm() < nearest) nearest = (p - q).squaredNorm(), best = l;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+      const std::vector<Vec3>& q = loops[l].positions;
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        const double distance = squared_distance(p, q[i], q[(i + 1) % q.size()]);
+        if (distance < nearest) nearest = distance, best = l;
+      }
+    }
     ++votes[best];
     sum += std::sqrt(nearest);
   }

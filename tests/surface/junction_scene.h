@@ -21,6 +21,7 @@ struct SceneInput {
   bool is_cut = true;
   bool is_host = false;
   bool is_added = false;
+  std::vector<double> weights = {};  ///< #V; where given, instead of `weight`
 };
 
 /// The steps from placed meshes to the loops of one junction, for site 0, as the build takes them.
@@ -39,7 +40,9 @@ struct JunctionScene {
 
 inline SourceSelection select_input(const SceneInput& input) {
   SkinWeights weights;
-  for (const Vec3& p : input.mesh.positions) weights.push_row(two_joint_row(input.weight(p.x())));
+  for (std::size_t v = 0; v < input.mesh.vertex_count(); ++v)
+    weights.push_row(
+        two_joint_row(input.weights.empty() ? input.weight(input.mesh.positions[v].x()) : input.weights[v]));
   std::vector<Cut> cuts;
   if (input.is_cut) cuts.push_back({0, {false, true}, {}});
   IssueSink issues;
