@@ -28,6 +28,8 @@ const char* name_of(JunctionRung rung) {
       return "bridge";
     case JunctionRung::Cap:
       return "cap";
+    case JunctionRung::Strip:
+      return "strip";
     case JunctionRung::None:
       return "none";
   }
@@ -64,7 +66,7 @@ JunctionReport report_junction(const SurfaceResult& surface, std::size_t site, c
   r.reason = junction.reason;
   r.voxel = junction.voxel;
   for (const JunctionLoop& loop : junction.loops) r.border_loops.push_back(wide(loop.vertices.size()));
-  if (junction.patch.triangles.empty()) return r;
+  if (junction.is_empty()) return r;
   const bool on_field = junction.rung == JunctionRung::Tube || junction.rung == JunctionRung::Field;
   const JunctionMeasures m =
       measure_junction(surface.joined, static_cast<std::int32_t>(site), on_field ? &field.distance : nullptr);
@@ -73,6 +75,7 @@ JunctionReport report_junction(const SurfaceResult& surface, std::size_t site, c
   r.quads = wide(m.quads);
   r.triangles = wide(m.triangles);
   r.boundary_edges = wide(m.boundary_edges);
+  for (const ArcStrip& strip : junction.strips) r.boundary_edges -= wide(strip.hem_edges);
   r.non_manifold_edges = wide(m.non_manifold_edges);
   r.degenerate_faces = wide(m.degenerate_faces);
   if (on_field) r.folded_faces = wide(m.folded_faces);

@@ -7,10 +7,20 @@
 namespace skinforge {
 namespace {
 
+// Strips between arcs of both sides; other arcs are counted in `open`.
+void add_strips(Junction& junction, std::span<const JunctionLoop> arcs, const KeptSurface& kept, int& open) {
+  junction.strips = arc_strips(arcs, open);
+  for (const ArcStrip& strip : junction.strips) junction.faults += faults_of(strip.patch, strip.arcs, kept);
+  if (junction.rung != JunctionRung::None || junction.strips.empty()) return;
+  junction.rung = JunctionRung::Strip;
+  junction.reason.clear();
+}
+
 // Of two junctions that are each other's images the second is the first one's image.
 Junction make_junction(const JunctionSite& site, JunctionSymmetry symmetry, JunctionRound& round,
                        const KeptSurface& kept) {
-  auto loops = loops_of(round.sources, site, round.arcs[site.first()]);
+  std::vector<JunctionLoop> arcs;
+  auto loops = loops_of(round.sources, site, arcs);
   const auto own = static_cast<std::int32_t>(site.first());
   Junction junction;
   if (symmetry.site >= 0 && symmetry.site < own) {
@@ -22,6 +32,7 @@ Junction make_junction(const JunctionSite& site, JunctionSymmetry symmetry, Junc
                               symmetry.site == own ? &symmetry.borders : nullptr);
   }
   junction.symmetry = std::move(symmetry);
+  add_strips(junction, arcs, kept, round.arcs[site.first()]);
   return junction;
 }
 

@@ -18,7 +18,7 @@ void clean_alike(std::span<PreservedSource> sources, const PreserveOptions& opti
 }  // namespace
 
 std::vector<JunctionLoop> loops_of(std::span<const PreservedSource> sources, const JunctionSite& site,
-                                   int& arcs) {
+                                   std::vector<JunctionLoop>& arcs) {
   std::vector<JunctionLoop> loops;
   for (const SiteParticipant& p : site.solids.participants) {
     auto found = loops_of_sites(sources[p.source.index()], p.source, site.group, p.is_host, arcs);
@@ -75,7 +75,7 @@ JunctionSymmetry BuildSymmetry::of(const JunctionSite& site, std::span<const Pre
   JunctionSymmetry symmetry{-1, reason_[site.first()], mirror_ ? mirror_->matched : 0, {}};
   const std::int32_t image = image_[site.first()];
   if (image < 0) return symmetry;
-  int arcs = 0;
+  std::vector<JunctionLoop> arcs;  // what runs along open hems is joined without regard to symmetry
   auto images =
       border_images(*mirror_, loops_of(sources, site, arcs), loops_of(sources, site_with(image), arcs));
   if (!images) return symmetry;

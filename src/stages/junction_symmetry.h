@@ -17,9 +17,9 @@ struct JunctionSite {
   std::size_t first() const { return group.front(); }
 };
 
-/// The borders of a junction; arcs that are left open are counted in `arcs`.
+/// The closed borders of a junction; those that end on open hems are added to `arcs`.
 std::vector<JunctionLoop> loops_of(std::span<const PreservedSource> sources, const JunctionSite& site,
-                                   int& arcs);
+                                   std::vector<JunctionLoop>& arcs);
 
 /// What of a build is mirror symmetric (junction.md d.1): which junctions are their own images, and which
 /// each other's.

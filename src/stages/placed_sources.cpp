@@ -80,6 +80,7 @@ std::vector<Cut> cuts_of_source(const Graft& graft, const Skeleton& skeleton, So
       cut = cut_of_host(site, source, skeleton, options[k]);
     if (!cut) continue;
     cut->site = k;
+    cut->is_of_added = site.donor == source && site.kind == GraftKind::Attach;
     cuts.push_back(std::move(*cut));
   }
   return cuts;

@@ -25,7 +25,8 @@ FaceSet shown_faces(const PolygonMesh& mesh, const SourceSelection& selection) {
     for (const VertexId v : mesh.face(FaceId(f))) sum += selection.presence[v.index()];
     const bool is_present = sum >= kStays * static_cast<double>(mesh.face(FaceId(f)).size());
     const ComponentRole role = selection.face_role[f];
-    shown.push_back(role == ComponentRole::KeptWhole || (role == ComponentRole::Blended && is_present));
+    const bool is_cut = role == ComponentRole::Blended || role == ComponentRole::Sheet;
+    shown.push_back(role == ComponentRole::KeptWhole || (is_cut && is_present));
   }
   return shown;
 }

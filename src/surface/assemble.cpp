@@ -46,27 +46,40 @@ class Assembler {
   }
 
   void add_junction(const Junction& junction, std::int32_t site, JunctionElements elements) {
-    if (junction.patch.triangles.empty()) {
+    if (junction.is_empty()) {
       result_.junction_part.emplace_back();
       return;
     }
     const PartId part(static_cast<std::int32_t>(result_.mesh.parts.size()));
     result_.junction_part.push_back(part);
     result_.mesh.parts.push_back({"junction" + std::to_string(site + 1), 0, true, false});
-    const std::vector<VertexId> names = junction_vertices(junction, site);
+    add_patch({junction.loops, junction.patch, junction.quads}, part, site, elements);
+    for (const ArcStrip& strip : junction.strips)
+      add_patch({strip.arcs, strip.patch, strip.quads}, part, site, elements);
+  }
+
+  JoinedSurface take() { return std::move(result_); }
+
+ private:
+  // New faces between borders: triangles 2 k and 2 k + 1 are halves of a quad, for k below `quads`.
+  struct NewFaces {
+    const std::vector<JunctionLoop>& borders;
+    const TrianglePatch& patch;
+    std::size_t quads;
+  };
+
+  void add_patch(const NewFaces& made, PartId part, std::int32_t site, JunctionElements elements) {
+    const std::vector<VertexId> names = new_vertices(made, site);
     const bool has_quads = elements != JunctionElements::Triangles;
-    if (has_quads) add_halved_quads(junction, names, part, site);
-    const PolygonMesh polygons = has_quads ? paired_patch(junction.patch, 2 * junction.quads, elements)
-                                           : patch_mesh(junction.patch, 0);
+    if (has_quads) add_halved_quads(made, names, part, site);
+    const PolygonMesh polygons =
+        has_quads ? paired_patch(made.patch, 2 * made.quads, elements) : patch_mesh(made.patch, 0);
     for (std::size_t f = 0; f < polygons.face_count(); ++f) {
       for (const VertexId v : polygons.face(FaceId(f))) add_plain_corner(names[v.index()]);
       close_face(MaterialId(), part, {SourceId(), FaceId(), site});
     }
   }
 
-  JoinedSurface take() { return std::move(result_); }
-
- private:
   VertexId preserved_vertex(SourceId id, VertexId v) {
     VertexId& name = vertex_names_[id.index()][v.index()];
     if (!name.is_valid()) name = new_vertex(sources_[id.index()].mesh->positions[v.index()], {id, v, -1});
@@ -103,24 +116,24 @@ class Assembler {
     result_.faces.push_back(origin);
   }
 
-  std::vector<VertexId> junction_vertices(const Junction& junction, std::int32_t site) {
+  std::vector<VertexId> new_vertices(const NewFaces& made, std::int32_t site) {
     std::vector<VertexId> names;
-    for (const JunctionLoop& loop : junction.loops)
-      for (const VertexId v : loop.vertices) {
-        names.push_back(preserved_vertex(loop.source, v));
+    for (const JunctionLoop& border : made.borders)
+      for (const VertexId v : border.vertices) {
+        names.push_back(preserved_vertex(border.source, v));
         result_.vertices[names.back().index()].site = site;
       }
-    for (std::size_t v = junction.patch.fixed; v < junction.patch.positions.size(); ++v)
-      names.push_back(new_vertex(junction.patch.positions[v], {SourceId(), VertexId(), site}));
+    for (std::size_t v = made.patch.fixed; v < made.patch.positions.size(); ++v)
+      names.push_back(new_vertex(made.patch.positions[v], {SourceId(), VertexId(), site}));
     return names;
   }
 
   // Quads that the junction was made of; each begins where its halves do.
-  void add_halved_quads(const Junction& junction, const std::vector<VertexId>& names, PartId part,
+  void add_halved_quads(const NewFaces& made, const std::vector<VertexId>& names, PartId part,
                         std::int32_t site) {
-    for (std::size_t k = 0; k < junction.quads; ++k) {
-      const Triangle& first = junction.patch.triangles[2 * k];
-      for (const std::int32_t v : {first[0], first[1], first[2], junction.patch.triangles[2 * k + 1][2]})
+    for (std::size_t k = 0; k < made.quads; ++k) {
+      const Triangle& first = made.patch.triangles[2 * k];
+      for (const std::int32_t v : {first[0], first[1], first[2], made.patch.triangles[2 * k + 1][2]})
         add_plain_corner(names[v]);
       close_face(MaterialId(), part, {SourceId(), FaceId(), site});
     }
@@ -165,7 +178,7 @@ JoinedSurface assemble_surface(std::span<const PreservedSource> sources, std::sp
                            elements.empty() ? JunctionElements::Auto : elements[j]);
   JoinedSurface result = assembler.take();
   for (std::size_t j = 0; j < junctions.size(); ++j)
-    if (!junctions[j].patch.triangles.empty()) shade_junction(result, sources, static_cast<std::int32_t>(j));
+    if (!junctions[j].is_empty()) shade_junction(result, sources, static_cast<std::int32_t>(j));
   return result;
 }
 

@@ -1,50 +1,16 @@
 #include "surface/bridge.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 
 #include "surface/borders.h"
 #include "surface/chords.h"
 #include "surface/fairing.h"
+#include "surface/nearest_pairs.h"
 #include "surface/remesh.h"
 
 namespace skinforge {
 namespace {
-
-double distance_to(const std::vector<Vec3>& loop, const Vec3& p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vec3& q : loop) least = std::min(least, (p - q).squaredNorm());
-  return std::sqrt(least);
-}
-
-// Mean way from each vertex of one loop to the nearest of the other.
-double mean_distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-  double sum = 0;
-  for (const Vec3& p : from) sum += distance_to(to, p);
-  return sum / static_cast<double>(from.size());
-}
-
-// Host and donor borders in pairs, the two that run nearest to each other first; what stays single is capped.
-std::vector<std::pair<std::size_t, std::size_t>> nearest_pairs(const std::vector<JunctionLoop>& loops) {
-  std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> candidates;
-  for (std::size_t i = 0; i < loops.size(); ++i)
-    for (std::size_t j = 0; j < loops.size(); ++j)
-      if (loops[i].is_host && !loops[j].is_host)
-        candidates.push_back({mean_distance(loops[i].positions, loops[j].positions) +
-                                  mean_distance(loops[j].positions, loops[i].positions),
-                              {i, j}});
-  std::stable_sort(candidates.begin(), candidates.end());
-  std::set<std::size_t> taken;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (const auto& [distance, pair] : candidates) {
-    if (taken.contains(pair.first) || taken.contains(pair.second)) continue;
-    taken.insert({pair.first, pair.second});
-    pairs.push_back(pair);
-  }
-  return pairs;
-}
 
 // The connected piece of the preserved faces that each loop bounds.
 std::vector<std::int32_t> pieces_of(const std::vector<JunctionLoop>& loops, const KeptSurface& kept) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "surface/arc_strip.h"
 #include "surface/junction_faults.h"
 #include "surface/junction_loop.h"
 #include "surface/kept_surface.h"
@@ -17,6 +18,7 @@ enum class JunctionRung : std::uint8_t {
   Field,   ///< isosurface of the blended field, zipped to the borders (rung 1)
   Bridge,  ///< the borders zipped directly, the strip remeshed and faired
   Cap,     ///< each border closed on its own
+  Strip,   ///< only borders that end on open hems, joined by strips
   None,    ///< no border: parts without a cut loop are joined rigidly
 };
 
@@ -42,13 +44,16 @@ struct Junction {
   JunctionRung rung = JunctionRung::None;
   std::string reason;  ///< why not a better rung; empty where nothing better was asked
   double voxel = 0;    ///< metres; 0 without a field
-  JunctionFaults faults;
+  std::vector<ArcStrip> strips;
+  JunctionFaults faults;  ///< of the patch and the strips
   JunctionSymmetry symmetry;
+
+  bool is_empty() const { return patch.triangles.empty() && strips.empty(); }
 
   template <class Archive>
   friend void fields(Archive& a, Junction& j) {
     a(j.loops, j.patch.positions, j.patch.triangles, j.patch.fixed, j.quads, j.rung, j.reason, j.voxel,
-      j.faults, j.symmetry);
+      j.strips, j.faults, j.symmetry);
   }
 };
 

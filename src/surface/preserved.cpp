@@ -172,7 +172,8 @@ void clean_borders(PreservedSource& source, const PreserveOptions& options) {
 }
 
 std::vector<JunctionLoop> loops_of_sites(const PreservedSource& source, SourceId id,
-                                         std::span<const std::size_t> sites, bool is_host, int& arcs) {
+                                         std::span<const std::size_t> sites, bool is_host,
+                                         std::vector<JunctionLoop>& arcs) {
   const PolygonMesh& mesh = *source.mesh;
   const EdgeList& edges = *source.edges;
   std::vector<JunctionLoop> loops;
@@ -180,14 +181,11 @@ std::vector<JunctionLoop> loops_of_sites(const PreservedSource& source, SourceId
     const std::int32_t owner = site_of_chain(edges, source.selection, chain);
     if (owner < 0 || std::find(sites.begin(), sites.end(), static_cast<std::size_t>(owner)) == sites.end())
       continue;
-    if (!chain.is_closed || chain.vertices.size() < 3) {
-      ++arcs;
-      continue;
-    }
     JunctionLoop loop{id, is_host, chain.vertices, {}, {}};
     for (const VertexId v : chain.vertices) loop.positions.push_back(mesh.positions[v.index()]);
     add_inward_neighbours(mesh, edges, source.selection.kept, loop);
-    loops.push_back(std::move(loop));
+    const bool is_arc = !chain.is_closed || chain.vertices.size() < 3;
+    (is_arc ? arcs : loops).push_back(std::move(loop));
   }
   return loops;
 }

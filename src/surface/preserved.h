@@ -58,9 +58,10 @@ std::size_t discard_faces(std::span<PreservedSource> sources, std::span<const Si
 /// of which nothing would be left keeps its ragged border.
 void clean_borders(PreservedSource& source, const PreserveOptions& options);
 
-/// The closed borders that belong to one of `sites`. Arcs that end on an original open border are counted in
-/// `arcs` and left open.
+/// The closed borders that belong to one of `sites`. Arcs that end on an original open border are added to
+/// `arcs`.
 std::vector<JunctionLoop> loops_of_sites(const PreservedSource& source, SourceId id,
-                                         std::span<const std::size_t> sites, bool is_host, int& arcs);
+                                         std::span<const std::size_t> sites, bool is_host,
+                                         std::vector<JunctionLoop>& arcs);
 
 }  // namespace skinforge

@@ -39,8 +39,15 @@ void harden(std::vector<double>& presence, double hardness) {
 struct ComponentStatistics {
   double count = 0, sum = 0, squares = 0;
   bool has_full_face = false, has_empty_face = false;
+  double area = 0;
+  Vec3 area_vector = Vec3::Zero();  // zero for a closed surface
 
   double mean() const { return count > 0 ? sum / count : 0; }
+  // Departure: the paper's own sheets (leaves, capes) are components that no operation cuts.
+  bool is_sheet() const {
+    constexpr double kFlat = 0.75;  // ours: half a cylinder has 0.64, a bust that is open below 0.1
+    return area_vector.norm() > kFlat * area;
+  }
   double variance() const { return count > 0 ? std::max(0.0, squares / count - mean() * mean()) : 0; }
 };
 
@@ -64,6 +71,9 @@ std::vector<ComponentStatistics> measure_components(const PolygonMesh& mesh, con
     ComponentStatistics& s = all[components.of_face[f]];
     s.has_full_face |= all_of_face(mesh, f, [&](std::size_t v) { return presence[v] == 1; });
     s.has_empty_face |= all_of_face(mesh, f, [&](std::size_t v) { return presence[v] == 0; });
+    const Vec3 area = area_normal(mesh, FaceId(f));
+    s.area += area.norm();
+    s.area_vector += area;
   }
   return all;
 }
@@ -83,7 +93,8 @@ std::vector<SelectionOptions> rules_of(const PolygonMesh& mesh, const Components
 
 ComponentRole role_of(const ComponentStatistics& s, const SelectionOptions& options) {
   const bool spans = s.has_full_face && s.has_empty_face;
-  if (spans || s.variance() >= options.keep_variance) return ComponentRole::Blended;
+  if (spans || s.variance() >= options.keep_variance)
+    return s.is_sheet() ? ComponentRole::Sheet : ComponentRole::Blended;
   return s.mean() > options.keep_mean ? ComponentRole::KeptWhole : ComponentRole::DroppedWhole;
 }
 
@@ -98,6 +109,19 @@ std::int32_t discarding_site(const PolygonMesh& mesh, std::size_t f, const Sourc
     if (sum < least) least = sum, site = static_cast<std::int32_t>(selection.cut_sites[c]);
   }
   return site;
+}
+
+bool is_kept(const PolygonMesh& mesh, std::size_t f, ComponentRole role, std::span<const Cut> cuts,
+             const SourceSelection& selection) {
+  if (role == ComponentRole::KeptWhole) return true;
+  if (role == ComponentRole::DroppedWhole) return false;
+  for (std::size_t c = 0; c < cuts.size(); ++c) {
+    const std::vector<double>& presence = selection.site_presence[c];
+    const bool fades = role == ComponentRole::Sheet && cuts[c].is_of_added;
+    if (!all_of_face(mesh, f, [&](std::size_t v) { return fades ? presence[v] > 0 : presence[v] == 1; }))
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -141,8 +165,7 @@ SourceSelection select_faces(const PolygonMesh& mesh, const SkinWeights& weights
         fmt::format("{} partly present components kept whole, {} dropped whole", kept_whole, dropped_whole));
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const ComponentRole role = roles[components.of_face[f]];
-    const bool present = all_of_face(mesh, f, [&](std::size_t v) { return selection.presence[v] == 1; });
-    const bool keep = role == ComponentRole::KeptWhole || (role == ComponentRole::Blended && present);
+    const bool keep = is_kept(mesh, f, role, cuts, selection);
     selection.face_role.push_back(role);
     selection.kept.push_back(keep ? 1 : 0);
     selection.face_site.push_back(keep ? -1 : discarding_site(mesh, f, selection));

@@ -33,10 +33,16 @@ struct Cut {
   std::size_t site = 0;
   std::vector<bool> removed;  ///< per joint of the input
   SelectionOptions options;
+  bool is_of_added = false;  ///< of the part that an operation adds: its sheets stay as far as they fade
 };
 
 /// How a connected component of a source takes part.
-enum class ComponentRole : std::uint8_t { Blended, KeptWhole, DroppedWhole };
+enum class ComponentRole : std::uint8_t {
+  Blended,
+  KeptWhole,
+  DroppedWhole,
+  Sheet,  ///< cut as it is and fused with nothing: an open surface that is all but flat has no inside
+};
 
 /// What stays of one source (SkinMixer Sec. 6), before any field is known.
 struct SourceSelection {

@@ -68,7 +68,7 @@ TEST(JunctionNormals, HardEdgesRunOnIntoTheJunction) {
       sources[s].selection.kept.push_back(stays);
       sources[s].selection.face_site.push_back(stays ? -1 : 0);
     }
-    int arcs = 0;
+    std::vector<JunctionLoop> arcs;
     for (JunctionLoop& loop :
          loops_of_sites(sources[s], SourceId(s), std::vector<std::size_t>{0}, s == 0, arcs))
       if (loop.positions[0].z() > 0.5 && loop.positions[0].z() < 4.5)

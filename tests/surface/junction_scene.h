@@ -33,7 +33,7 @@ struct JunctionScene {
   SiteField field;
   KeptSurface kept;
   std::vector<JunctionLoop> loops;
-  int arcs = 0;
+  std::vector<JunctionLoop> arcs;
 
   Junction junction() const { return build_junction(loops, field, kept); }
 };
@@ -44,7 +44,7 @@ inline SourceSelection select_input(const SceneInput& input) {
     weights.push_row(
         two_joint_row(input.weights.empty() ? input.weight(input.mesh.positions[v].x()) : input.weights[v]));
   std::vector<Cut> cuts;
-  if (input.is_cut) cuts.push_back({0, {false, true}, {}});
+  if (input.is_cut) cuts.push_back({0, {false, true}, {}, input.is_added});
   IssueSink issues;
   return select_faces(input.mesh, weights, cuts, "scene", issues);
 }

@@ -87,10 +87,10 @@ TEST(DiscardFaces, OnlyFusedOnesAndOnce) {
 TEST(LoopsOfSites, LoopWithItsInwardNeighbours) {
   const PolygonMesh grid = testing::quad_grid(5, 5);
   const PreservedSource source = source_with(grid, all_but(25, 12), 4);
-  int arcs = 0;
+  std::vector<JunctionLoop> arcs;
   const auto loops = loops_of_sites(source, SourceId(1), std::vector<std::size_t>{4}, true, arcs);
   ASSERT_EQ(loops.size(), 1u);
-  EXPECT_EQ(arcs, 0);
+  EXPECT_TRUE(arcs.empty());
   EXPECT_EQ(loops[0].source, SourceId(1));
   EXPECT_TRUE(loops[0].is_host);
   EXPECT_THAT(loops[0].vertices, ElementsAre(VertexId(14), VertexId(15), VertexId(21), VertexId(20)));
@@ -103,11 +103,11 @@ TEST(LoopsOfSites, LoopWithItsInwardNeighbours) {
 // A gap from hem to hem has two arcs and no loop.
 TEST(LoopsOfSites, ArcsAreCounted) {
   const PolygonMesh grid = testing::quad_grid(3, 1);
-  int arcs = 0;
+  std::vector<JunctionLoop> arcs;
   EXPECT_THAT(
       loops_of_sites(source_with(grid, {1, 0, 1}, 0), SourceId(0), std::vector<std::size_t>{0}, true, arcs),
       IsEmpty());
-  EXPECT_EQ(arcs, 2);
+  EXPECT_EQ(arcs.size(), 2u);
 }
 
 // Where two solids are united, kept faces of the host that lie inside the added part go.

@@ -42,7 +42,7 @@ double mean(const std::vector<double>& values) {
 TEST(RealJunction, ForearmReplaced) {
   const auto scene = replaced_forearm();
   ASSERT_EQ(scene.loops.size(), 2u);
-  EXPECT_EQ(scene.arcs, 0);
+  EXPECT_TRUE(scene.arcs.empty());
   const Junction junction = scene.junction();
   EXPECT_EQ(junction.rung, JunctionRung::Tube) << junction.reason;
   EXPECT_FALSE(junction.faults.any()) << describe(junction.faults);

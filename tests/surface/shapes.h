@@ -70,6 +70,13 @@ inline PolygonMesh quad_grid(int x_count, int y_count) {
   return polygon_mesh(positions, faces);
 }
 
+/// A flat open sheet in the plane y = 0 along x, `y_count` squares wide about the x axis.
+inline PolygonMesh sheet_along_x(int x_count, int y_count, double first, double step) {
+  PolygonMesh mesh = quad_grid(x_count, y_count);
+  for (Vec3& p : mesh.positions) p = Vec3(first + p.x() * step, 0, (p.y() - 0.5 * y_count) * step);
+  return mesh;
+}
+
 /// An open tube along x in quads, outward: ring r at x = first + r * step, vertex a of it is r * around + a.
 inline PolygonMesh open_tube(int rings, int around, double first, double step, double radius) {
   std::vector<Vec3> positions;

@@ -19,7 +19,7 @@ struct TwoCubes {
       sources.push_back({&meshes[s], {}});
       sources[s].selection.kept = faces[s];
       for (const char k : faces[s]) sources[s].selection.face_site.push_back(k ? -1 : 0);
-      int arcs = 0;
+      std::vector<JunctionLoop> arcs;
       for (JunctionLoop& loop :
            loops_of_sites(sources[s], SourceId(s), std::vector<std::size_t>{0}, s == 0, arcs))
         loops.push_back(std::move(loop));
