@@ -24,7 +24,7 @@ class Select final : public Stage {
 
   StageInfo info() const override {
     return {.name = "select",
-            .version = 2,
+            .version = 3,
             .reads = joined(character_names(names_, inputs_), {names_.placement(), names_.graft()}),
             .writes = {names_.placed(), names_.selection(), names_.groups()}};
   }
