@@ -2,12 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "io/export.h"
-#include "pipeline/engine.h"
-#include "stages/artifacts.h"
-#include "stages/build.h"
+#include "stages/built_recipe.h"
 #include "surface/shapes.h"
 #include "testing/temporary_folder.h"
 
@@ -48,21 +45,14 @@ TEST(Leaf, HalfOfOneGoesOnInHalfOfAnother) {
       {"base", "narrow"},
       {"inputs", {{"narrow", "narrow.glb"}, {"wide", "wide.glb"}}},
       {"ops", {{{"op", "replace"}, {"at", "blade"}, {"from", "wide"}, {"joint", "blade"}}}}};
-  const Recipe parsed = parse_recipe(recipe.dump(), (folder / "leaf.json").string());
-  MemoryStore store;
-  Cache cache(store);
-  Engine engine(cache, {});
-  add_imports(parsed, engine, [&] { engine.run(); });
-  engine.run();
-  add_grafts(parsed, engine, ReportLevel::None);
-  engine.run();
-  ASSERT_TRUE(engine.is_ok());
+  testing::BuiltRecipe built(recipe, (folder / "leaf.json").string());
+  ASSERT_TRUE(built.is_ok());
   const ArtifactNames names;
-  const auto surface = engine.get<SurfaceResult>(names.surface());
+  const auto surface = built.get<SurfaceResult>(names.surface());
   EXPECT_EQ(surface.junctions[0].rung, JunctionRung::Strip) << surface.junctions[0].reason;
   EXPECT_FALSE(surface.junctions[0].faults.any());
   EXPECT_EQ(surface.arcs[0], 0);
-  const auto result = engine.get<Character>(names.result());
+  const auto result = built.get<Character>(names.result());
   const MeshTopology topology = measure_topology(result.mesh);
   EXPECT_EQ(topology.components, 1u);
   EXPECT_EQ(topology.euler, 1);

@@ -38,8 +38,7 @@ struct Mixed {
     graft = graft_skeletons(skeletons, names, 0, std::vector{operation}, issues);
     maps = build_joint_maps(skeletons, graft);
     for (std::size_t k = 0; k < graft.sources.size(); ++k)
-      motions.push_back(
-          build_motion_set(inputs[graft.sources[k].input], graft, SourceId(k), maps[k]));
+      motions.push_back(build_motion_set(inputs[graft.sources[k].input], graft, SourceId(k), maps[k]));
   }
   Mixed(const Mixed&) = delete;
 

@@ -2,11 +2,7 @@
 // 17).
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "pipeline/engine.h"
-#include "stages/artifacts.h"
-#include "stages/build.h"
+#include "stages/built_recipe.h"
 #include "testing/assets.h"
 
 namespace skinforge {
@@ -27,22 +23,16 @@ Built bowed_head(double degrees, nlohmann::json place = nlohmann::json::object()
       {"recipe_version", 1},
       {"name", "bowed"},
       {"base", "human"},
+      {"animation", {{"clips", {"Idle"}}}},
       {"inputs", {{"human", "data/human.glb"}, {"griffin", "data/griffin.glb"}}},
       {"ops",
        {{{"op", "replace"}, {"at", "Neck"}, {"from", "griffin"}, {"joint", "Head"}, {"place", place}}}}};
-  const Recipe parsed = parse_recipe(recipe.dump(), testing::repository_file("recipe.json"));
-  MemoryStore store;
-  Cache cache(store);
-  Engine engine(cache, {});
-  add_imports(parsed, engine, [&] { engine.run(); });
-  engine.run();
-  add_grafts(parsed, engine, ReportLevel::None);
-  engine.run();
+  testing::BuiltRecipe built(recipe, testing::repository_file("recipe.json"));
   const ArtifactNames names;
-  const auto placed = engine.get<PlacedOperations>(names.placement());
-  const auto graft = engine.get<Graft>(names.graft());
+  const auto placed = built.get<PlacedOperations>(names.placement());
+  const auto graft = built.get<Graft>(names.graft());
   return {placed.operations[0], graft.skeleton[graft.sites[0].fused].joint_from_model.inverse().translation(),
-          placed.turns[0], engine.get<SurfaceResult>(names.surface()).junctions[0]};
+          placed.turns[0], built.get<SurfaceResult>(names.surface()).junctions[0]};
 }
 
 TEST(Turn, LeavesWhatJoins) {
