@@ -96,24 +96,29 @@ def above(upper, lower):
     return [row[:width] for row in [*upper, *([b"\xff" * width] * GAP), *lower]]
 
 
-def with_settings(recipe, elements, clearing, folder):
-    """A recipe of the repository with these junction elements and limb clearing, to be read from that folder."""
+def changed(recipe, changes, folder):
+    """A recipe of the repository with other values at some JSON pointers, to be read from that folder."""
     content = json.loads((ROOT / f"recipes/{recipe}.json").read_text())
     for name, file in content["inputs"].items():
         content["inputs"][name] = os.path.relpath(ROOT / "recipes" / file, folder)
-    content.setdefault("surface", {})["elements"] = elements
-    content.setdefault("animation", {})["limb_clearing_deg"] = clearing
+    for pointer, value in changes.items():
+        *way, last = pointer.strip("/").split("/")
+        place = content
+        for step in way:
+            place = place[int(step)] if isinstance(place, list) else place.setdefault(step, {})
+        place[last] = value
     return content
 
 
 def main():
     program = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/release/skinforge")
     with tempfile.TemporaryDirectory() as scratch:
-        def picture(recipe, name, elements="auto", clearing=40):
-            out = Path(scratch) / f"{recipe}_{elements}_{clearing}"
+        def picture(recipe, name, changes=None):
+            text = json.dumps(changed(recipe, changes or {}, scratch))
+            out = Path(scratch) / f"{recipe}_{zlib.crc32(text.encode())}"
             if not out.exists():
                 file = Path(scratch) / f"{out.name}.json"
-                file.write_text(json.dumps(with_settings(recipe, elements, clearing, scratch)))
+                file.write_text(text)
                 subprocess.run([program, "build", "--quiet", "--cache", scratch + "/cache", "--out", str(out),
                                 str(file)], check=True)
             return read_png(out / f"pictures/{name}.png")
@@ -123,15 +128,19 @@ def main():
         write_png(target / "characters.png",
                   side_by_side([halved(view(picture(recipe, "rest"), k)) for recipe, k in shown]))
         write_png(target / "centaur_gallop.png", picture("centaur", "clip_Gallop"))
-        write_png(target / "four_arms_walk.png", above(*(picture("four_armed", "clip_Walk", clearing=degrees)
-                                                         for degrees in (0, 40))))
+        write_png(target / "four_arms_walk.png", above(*(
+            picture("four_armed", "clip_Walk", {"/animation/limb_clearing_deg": degrees}) for degrees in (0, 40))))
         shown = [("centaur", 0), ("centaur", 1), ("tail", 0), ("four_armed", 0)]
         write_png(target / "junctions.png",
                   side_by_side([halved(view(picture(recipe, "junction1"), k)) for recipe, k in shown]))
         shown = [("winged_horse", 0), ("composite", 0)]
         write_png(target / "triangles_and_quads.png",
-                  side_by_side([halved(view(picture(recipe, "junction1", elements), k)) for recipe, k in shown
-                                for elements in ("triangles", "auto")]))
+                  side_by_side([halved(view(picture(recipe, "junction1", {"/surface/elements": elements}), k))
+                                for recipe, k in shown for elements in ("triangles", "auto")]))
+        bowed = {"align": "joint", "scale": 0.64, "rotate_deg": [28, 0, 0]}
+        write_png(target / "bowed_head.png",
+                  side_by_side([halved(view(picture("head_swap", name, {"/ops/0/place": {**bowed, "turn_limit_deg": limit}}), k))
+                                for limit in (0, 90) for name, k in (("rest", 0), ("junction1", 1))]))
 
 
 if __name__ == "__main__":
