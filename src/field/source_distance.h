@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "field/signed_distance.h"
+#include "field/sampling_cells.h"
 #include "geometry/triangle_bvh.h"
 
 namespace skinforge {
@@ -24,6 +24,6 @@ struct SourceSamples {
 /// threads.
 SourceSamples sample_source(const Lattice& lattice, const TriangleBvh& bvh,
                             std::span<const std::array<std::int32_t, 3>> triangles,
-                            std::span<const double> presence, double band);
+                            std::span<const double> presence, double band, const SamplingReach& reach = {});
 
 }  // namespace skinforge
