@@ -57,27 +57,52 @@ struct StepCosts {
   }
 };
 
+// What is left to pay, at least, from the rung between a[i] and c[j] on: the cheapest way to the end of `a`,
+// #a + 1 x #c, wherever along `c` it ends.
+std::vector<double> least_left(std::size_t n, std::size_t m, const StepCosts& step) {
+  std::vector<double> left((n + 1) * m, 0.0);
+  for (std::size_t i = n; i-- > 0;) {
+    double* row = left.data() + i * m;
+    for (std::size_t j = 0; j < m; ++j) row[j] = step.along_a[i * m + j] + row[m + j];
+    for (int round = 0; round < 2; ++round)  // the row is a ring
+      for (std::size_t j = m; j-- > 0;)
+        row[j] = std::min(row[j], step.along_c[i * m + j] + row[j + 1 < m ? j + 1 : 0]);
+  }
+  return left;
+}
+
 // Best zip whose first rung joins a[0] and c[start]; rungs (i, j) join a[i % n] and c[(start + j) % m].
-Zip zip_from(std::size_t n, std::size_t m, const StepCosts& step, std::size_t start) {
+// Nothing where it would cost more than `most`: rungs from which `left` leads beyond that are passed over.
+Zip zip_from(std::size_t n, std::size_t m, const StepCosts& step, const std::vector<double>& left,
+             std::size_t start, double most) {
+  if (!(left[start] <= most)) return {};
   const std::size_t width = m + 1;
   std::vector<double> cost((n + 1) * width, std::numeric_limits<double>::infinity());
   std::vector<char> along_a(cost.size(), 0);
   cost[0] = 0;
+  std::size_t first = 0, last = 0;  // in this row, of the rungs that are reached
   for (std::size_t i = 0; i <= n; ++i) {
-    for (std::size_t j = 0; j <= m; ++j) {
+    std::size_t next_first = width, next_last = 0;
+    for (std::size_t j = first; j <= last; ++j) {
       const double here = cost[i * width + j];
-      const std::size_t rung = (i % n) * m + (start + j) % m;
+      const std::size_t in_c = start + j < m ? start + j : (start + j - m) % m, rung = (i % n) * m + in_c;
+      if (!(here + left[i * m + in_c] <= most)) continue;
       if (i < n) {
         const double next = here + step.along_a[rung];
         if (next < cost[(i + 1) * width + j])
           cost[(i + 1) * width + j] = next, along_a[(i + 1) * width + j] = 1;
+        next_first = std::min(next_first, j);
+        next_last = j;
       }
       if (j < m) {
         const double next = here + step.along_c[rung];
         if (next < cost[i * width + j + 1]) cost[i * width + j + 1] = next, along_a[i * width + j + 1] = 0;
+        last = std::max(last, j + 1);
       }
     }
+    if (i < n) first = next_first, last = next_last;
   }
+  if (!(cost.back() <= most)) return {};
   Zip zip{cost.back(), {}};
   const auto in_a = [&](std::size_t i) { return static_cast<std::int32_t>(i % n); };
   const auto in_c = [&](std::size_t j) { return static_cast<std::int32_t>(n + (start + j) % m); };
@@ -111,10 +136,12 @@ std::vector<Triangle> zip_rings(std::span<const Vec3> a, std::span<const Vec3> c
                                 const OutwardDirection& outward) {
   SF_EXPECT(a.size() >= 3 && c.size() >= 3);
   const StepCosts costs(Ring(a, outward), Ring(c, outward));
+  const std::vector<double> left = least_left(a.size(), c.size(), costs);
   Zip best;
   std::size_t best_start = 0;
   for (const std::size_t start : candidate_starts(a[0], c)) {
-    Zip zip = zip_from(a.size(), c.size(), costs, start);
+    Zip zip = zip_from(a.size(), c.size(), costs, left, start, (1 + 2 * kSameCost) * best.cost);
+    if (zip.triangles.empty()) continue;
     const bool is_equal = std::abs(zip.cost - best.cost) <= kSameCost * zip.cost;
     if (is_equal ? start < best_start : zip.cost < best.cost) best = std::move(zip), best_start = start;
   }
