@@ -6,32 +6,10 @@
 #include <cmath>
 
 #include "geometry/box_tree.h"
-#include "geometry/triangle_bvh.h"
+#include "geometry/point_tree.h"
 
 namespace skinforge {
 namespace {
-
-// Nearest point of a set, by a hierarchy of triangles that are points.
-class PointSet {
- public:
-  explicit PointSet(std::span<const Vec3> points) : points_(points), bvh_(points, triangles(points.size())) {}
-
-  VertexId nearest(const Vec3& p, double limit) const { return VertexId(bvh_.closest(p, limit).triangle); }
-  std::span<const Vec3> points() const { return points_; }
-
- private:
-  static std::vector<std::array<std::int32_t, 3>> triangles(std::size_t count) {
-    std::vector<std::array<std::int32_t, 3>> result;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto v = static_cast<std::int32_t>(i);
-      result.push_back({v, v, v});
-    }
-    return result;
-  }
-
-  std::span<const Vec3> points_;
-  TriangleBvh bvh_;
-};
 
 Vec3 centroid(std::span<const Vec3> points) {
   Vec3 sum = Vec3::Zero();
@@ -47,7 +25,7 @@ std::array<Vec3, 3> principal_axes(std::span<const Vec3> points) {
   return {axes.col(0), axes.col(1), axes.col(2)};
 }
 
-std::vector<VertexId> partners_between(const PointSet& from, const PointSet& to, const MirrorPlane& plane,
+std::vector<VertexId> partners_between(const PointTree& from, const PointTree& to, const MirrorPlane& plane,
                                        double reach) {
   std::vector<VertexId> partners;
   for (std::size_t v = 0; v < from.points().size(); ++v) {
@@ -61,13 +39,13 @@ std::vector<VertexId> partners_between(const PointSet& from, const PointSet& to,
 
 constexpr double kKept = 0.98;  // ours: of the partners, as a plane moves to the middle of them
 
-void match(MirrorSymmetry& found, const PointSet& set, double reach) {
+void match(MirrorSymmetry& found, const PointTree& set, double reach) {
   found.partner = partners_between(set, set, found.plane, reach);
   const auto without = std::count(found.partner.begin(), found.partner.end(), VertexId());
   found.matched = 1 - static_cast<double>(without) / static_cast<double>(set.points().size());
 }
 
-void offer_planes(MirrorSymmetry& best, const PointSet& set, const Box3& box,
+void offer_planes(MirrorSymmetry& best, const PointTree& set, const Box3& box,
                   const std::array<Vec3, 3>& normals, double reach) {
   for (const Vec3& normal : normals)
     for (const Vec3& through : {Vec3(Vec3::Zero()), Vec3(box.center()), centroid(set.points())}) {
@@ -78,7 +56,7 @@ void offer_planes(MirrorSymmetry& best, const PointSet& set, const Box3& box,
 }
 
 // Moves a plane to where the partners say it is, unless that loses some of them.
-void settle(MirrorSymmetry& best, const PointSet& set, const Box3& box, double reach) {
+void settle(MirrorSymmetry& best, const PointTree& set, const Box3& box, double reach) {
   constexpr double kSameOffset = 1e-5;  // ours: of the diagonal; far above the rounding of a file's floats
   std::vector<double> middle;
   for (std::size_t v = 0; v < best.partner.size(); ++v)
@@ -99,7 +77,7 @@ std::optional<MirrorSymmetry> find_mirror_symmetry(std::span<const Vec3> points,
   Box3 box;
   for (const Vec3& p : points) box.extend(p);
   if (points.size() < 2 || !(box.diagonal().norm() > 0)) return std::nullopt;
-  const PointSet set(points);
+  const PointTree set(points);
   const double reach = options.tolerance * box.diagonal().norm();
   MirrorSymmetry best;
   offer_planes(best, set, box, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}, reach);
@@ -111,7 +89,9 @@ std::optional<MirrorSymmetry> find_mirror_symmetry(std::span<const Vec3> points,
 
 std::vector<VertexId> mirror_partners(std::span<const Vec3> from, std::span<const Vec3> to,
                                       const MirrorPlane& plane, double reach) {
-  return partners_between(PointSet(from), PointSet(to), plane, reach);
+  const PointTree tree(to);
+  if (from.data() == to.data() && from.size() == to.size()) return partners_between(tree, tree, plane, reach);
+  return partners_between(PointTree(from), tree, plane, reach);
 }
 
 }  // namespace skinforge

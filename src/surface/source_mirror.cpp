@@ -58,22 +58,42 @@ void match_sources(SourceMirror& mirror, std::span<const PreservedSource> source
   }
 }
 
-std::vector<VertexId> sorted_corners(std::span<const VertexId> face) {
-  std::vector<VertexId> corners(face.begin(), face.end());
-  std::sort(corners.begin(), corners.end());
-  return corners;
+// Faces at each vertex, rising.
+std::vector<std::vector<FaceId>> faces_of_vertices(const PolygonMesh& mesh) {
+  std::vector<std::vector<FaceId>> faces(mesh.vertex_count());
+  for (std::size_t f = 0; f < mesh.face_count(); ++f)
+    for (const VertexId v : mesh.face(FaceId(f))) faces[v.index()].push_back(FaceId(f));
+  return faces;
+}
+
+// The lowest face with these corners, which are sorted.
+FaceId face_with(const PolygonMesh& mesh, const std::vector<std::vector<FaceId>>& faces,
+                 const std::vector<VertexId>& corners) {
+  const std::vector<FaceId>* fewest = nullptr;
+  for (const VertexId v : corners) {
+    if (!v.is_valid()) return {};
+    if (!fewest || faces[v.index()].size() < fewest->size()) fewest = &faces[v.index()];
+  }
+  if (!fewest) return {};
+  std::vector<VertexId> own;
+  const auto found = std::find_if(fewest->begin(), fewest->end(), [&](FaceId f) {
+    own.assign(mesh.face(f).begin(), mesh.face(f).end());
+    std::sort(own.begin(), own.end());
+    return own == corners;
+  });
+  return found == fewest->end() ? FaceId() : *found;
 }
 
 std::vector<FaceId> face_images(const PolygonMesh& from, const std::vector<VertexId>& vertex,
                                 const PolygonMesh& to) {
-  std::map<std::vector<VertexId>, FaceId> faces;
-  for (std::size_t f = 0; f < to.face_count(); ++f) faces.emplace(sorted_corners(to.face(FaceId(f))), f);
+  const std::vector<std::vector<FaceId>> faces = faces_of_vertices(to);
   std::vector<FaceId> images;
+  std::vector<VertexId> corners;
   for (std::size_t f = 0; f < from.face_count(); ++f) {
-    std::vector<VertexId> corners;
+    corners.clear();
     for (const VertexId v : from.face(FaceId(f))) corners.push_back(vertex[v.index()]);
-    const auto found = faces.find(sorted_corners(corners));
-    images.push_back(found == faces.end() ? FaceId() : found->second);
+    std::sort(corners.begin(), corners.end());
+    images.push_back(face_with(to, faces, corners));
   }
   return images;
 }
