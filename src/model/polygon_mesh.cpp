@@ -89,15 +89,24 @@ std::vector<std::array<int, 3>> triangulate(std::span<const Vec3> positions) {
 
 Triangulation triangulate(const PolygonMesh& mesh) {
   Triangulation result;
+  std::vector<Vec3> positions;
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const auto first = static_cast<std::int32_t>(mesh.first_corner(FaceId(f)));
-    for (const auto& t : triangulate(std::span<const Vec3>(face_positions(mesh, FaceId(f))))) {
+    const auto add = [&](const std::array<int, 3>& t) {
       const std::array<std::int32_t, 3> corners{first + t[0], first + t[1], first + t[2]};
       result.corners.push_back(corners);
       result.triangles.push_back(
           {mesh.corners[corners[0]], mesh.corners[corners[1]], mesh.corners[corners[2]]});
       result.face.push_back(FaceId(f));
+    };
+    const auto face = mesh.face(FaceId(f));
+    if (face.size() == 3) {
+      add({0, 1, 2});
+      continue;
     }
+    positions.clear();
+    for (const VertexId v : face) positions.push_back(mesh.positions[v.index()]);
+    for (const auto& t : triangulate(std::span<const Vec3>(positions))) add(t);
   }
   return result;
 }
