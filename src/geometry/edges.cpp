@@ -25,6 +25,30 @@ void unite(std::vector<std::int32_t>& parent, std::int32_t a, std::int32_t b) {
   parent[std::max(a, b)] = std::min(a, b);
 }
 
+// A side of a face: its vertices, lower first, and its corner.
+using Side = std::pair<VertexPair, std::int32_t>;
+
+// By vertices, then by corner. The lower vertex first puts each into a short list of its own.
+std::vector<Side> sorted_sides(const PolygonMesh& mesh, const std::vector<std::int32_t>& next_corner) {
+  const auto vertices = [&](std::size_t c) {
+    return sorted_pair(mesh.corners[c], mesh.corners[next_corner[c]]);
+  };
+  VertexId largest(0);
+  for (const VertexId v : mesh.corners) largest = std::max(largest, v);
+  std::vector<std::ptrdiff_t> begin(largest.index() + 2, 0);
+  for (std::size_t c = 0; c < next_corner.size(); ++c) ++begin[vertices(c)[0].index() + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::ptrdiff_t> next(begin.begin(), begin.end() - 1);
+  std::vector<Side> sides(next_corner.size());
+  for (std::size_t c = 0; c < next_corner.size(); ++c) {
+    const VertexPair pair = vertices(c);
+    sides[static_cast<std::size_t>(next[pair[0].index()]++)] = {pair, static_cast<std::int32_t>(c)};
+  }
+  for (std::size_t v = 0; v + 1 < begin.size(); ++v)
+    std::sort(sides.begin() + begin[v], sides.begin() + begin[v + 1]);
+  return sides;
+}
+
 }  // namespace
 
 EdgeList build_edges(const PolygonMesh& mesh) {
@@ -33,21 +57,22 @@ EdgeList build_edges(const PolygonMesh& mesh) {
   list.edge_of_corner.resize(count);
   list.face_of_corner.resize(count);
   list.next_corner.resize(count);
-  std::vector<std::pair<VertexPair, std::int32_t>> sides(count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const std::int32_t begin = mesh.face_begin[f], end = mesh.face_begin[f + 1];
     for (std::int32_t c = begin; c < end; ++c) {
-      const std::int32_t next = c + 1 < end ? c + 1 : begin;
       list.face_of_corner[c] = FaceId(f);
-      list.next_corner[c] = next;
-      sides[c] = {sorted_pair(mesh.corners[c], mesh.corners[next]), c};
+      list.next_corner[c] = c + 1 < end ? c + 1 : begin;
     }
   }
-  std::sort(sides.begin(), sides.end());
-  for (const auto& [pair, corner] : sides) {
-    if (list.edges.empty() || list.edges.back().vertices != pair) list.edges.push_back({pair, {}});
-    list.edges.back().half_edges.push_back(corner);
-    list.edge_of_corner[corner] = static_cast<std::int32_t>(list.edges.size()) - 1;
+  const std::vector<Side> sides = sorted_sides(mesh, list.next_corner);
+  for (std::size_t first = 0, end = 0; first < sides.size(); first = end) {
+    while (end < sides.size() && sides[end].first == sides[first].first) ++end;
+    Edge& edge = list.edges.emplace_back(Edge{sides[first].first, {}});
+    edge.half_edges.reserve(end - first);
+    for (std::size_t s = first; s < end; ++s) {
+      edge.half_edges.push_back(sides[s].second);
+      list.edge_of_corner[sides[s].second] = static_cast<std::int32_t>(list.edges.size()) - 1;
+    }
   }
   return list;
 }

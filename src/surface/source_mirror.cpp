@@ -14,9 +14,9 @@ constexpr double kReach = 0.1;         // ours: of the mean edge; what was place
 constexpr double kSamePresence = 0.1;  // ours: weights of left and right joints are painted apart
 constexpr double kMostUnlike = 0.1;    // ours: of the vertices that a cut takes away
 
-double mean_edge(const PolygonMesh& mesh) {
+double mean_edge(const PolygonMesh& mesh, const EdgeList& edges) {
   double sum = 0, count = 0;
-  for (const Edge& edge : build_edges(mesh).edges) {
+  for (const Edge& edge : edges.edges) {
     sum += (mesh.positions[edge.vertices[0].index()] - mesh.positions[edge.vertices[1].index()]).norm();
     count += 1;
   }
@@ -35,7 +35,7 @@ void match_sources(SourceMirror& mirror, std::span<const PreservedSource> source
   for (std::size_t s = 0; s < sources.size(); ++s) {
     mirror.vertex[s].resize(sources[s].mesh->vertex_count(), VertexId());
     if (mirror.image[s].is_valid()) continue;
-    const double reach = kReach * mean_edge(*sources[s].mesh);
+    const double reach = kReach * mean_edge(*sources[s].mesh, *sources[s].edges);
     double most = kLeastShare;
     for (std::size_t t = s; t < sources.size(); ++t) {
       if (mirror.image[t].is_valid() || sources[t].mesh->vertex_count() != sources[s].mesh->vertex_count())

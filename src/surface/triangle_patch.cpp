@@ -13,12 +13,17 @@ using HalfEdge = std::pair<std::int32_t, std::int32_t>;
 class HalfEdges {
  public:
   explicit HalfEdges(std::span<const Triangle> triangles) {
-    all_.reserve(3 * triangles.size());
+    std::int32_t largest = -1;
+    for (const Triangle& t : triangles) largest = std::max({largest, t[0], t[1], t[2]});
+    begin_.assign(static_cast<std::size_t>(largest) + 2, 0);
     for (const Triangle& t : triangles)
-      for (int k = 0; k < 3; ++k) all_.push_back({{t[k], t[(k + 1) % 3]}, t[(k + 2) % 3]});
-    std::stable_sort(all_.begin(), all_.end(), [](const auto& a, const auto& b) { return a.edge < b.edge; });
-    const auto is_same = [](const auto& a, const auto& b) { return a.edge == b.edge; };
-    all_.erase(all_.begin(), std::unique(all_.rbegin(), all_.rend(), is_same).base());
+      for (const std::int32_t v : t) ++begin_[v + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    all_.resize(3 * triangles.size());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (const Triangle& t : triangles)
+      for (int k = 0; k < 3; ++k) all_[next[t[k]]++] = {{t[k], t[(k + 1) % 3]}, t[(k + 2) % 3]};
+    sort_and_thin();
   }
 
   std::size_t size() const { return all_.size(); }
@@ -27,10 +32,10 @@ class HalfEdges {
 
   // None where no triangle has it.
   std::optional<std::size_t> find(const HalfEdge& edge) const {
-    const auto found =
-        std::lower_bound(all_.begin(), all_.end(), edge,
-                         [](const Entry& e, const HalfEdge& wanted) { return e.edge < wanted; });
-    if (found == all_.end() || found->edge != edge) return std::nullopt;
+    const auto begin = at(edge.first), end = at(edge.first + 1);
+    const auto found = std::lower_bound(
+        begin, end, edge.second, [](const Entry& e, std::int32_t wanted) { return e.edge.second < wanted; });
+    if (found == end || found->edge.second != edge.second) return std::nullopt;
     return static_cast<std::size_t>(found - all_.begin());
   }
 
@@ -47,7 +52,30 @@ class HalfEdges {
     HalfEdge edge;
     std::int32_t apex;
   };
+  std::vector<Entry>::const_iterator at(std::int32_t vertex) const {
+    return all_.begin() + static_cast<std::ptrdiff_t>(begin_[vertex]);
+  }
+
+  // Within each vertex, whose half-edges stand together already.
+  void sort_and_thin() {
+    std::size_t kept = 0;
+    for (std::size_t v = 0; v + 1 < begin_.size(); ++v) {
+      const auto begin = all_.begin() + static_cast<std::ptrdiff_t>(begin_[v]),
+                 end = all_.begin() + static_cast<std::ptrdiff_t>(begin_[v + 1]);
+      std::stable_sort(begin, end,
+                       [](const Entry& a, const Entry& b) { return a.edge.second < b.edge.second; });
+      begin_[v] = kept;
+      for (auto e = begin; e != end; ++e) {
+        if (e + 1 != end && (e + 1)->edge == e->edge) continue;
+        all_[kept++] = *e;
+      }
+    }
+    begin_.back() = kept;
+    all_.resize(kept);
+  }
+
   std::vector<Entry> all_;
+  std::vector<std::size_t> begin_;  // of each vertex in `all_`, and the end
 };
 
 }  // namespace
