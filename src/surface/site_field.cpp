@@ -170,6 +170,26 @@ LatticeCost lattice_cost(const std::vector<FusionSolid>& solids, const FieldOpti
   return {points, points * (kSample * static_cast<double>(solids.size()) + kSampling + kResult + kGrid)};
 }
 
+namespace {
+
+// Where parts are only added, the surface of their union never runs inside of one of them, and another
+// matters only where it is nearer than the fillet is wide; so little is asked beyond that. Elsewhere parts
+// are weighed against each other, and the surface may run far from one of them.
+SamplingReach reach_of(const SiteField& field) {
+  const auto& trims = field.blend.trims;
+  if (std::count_if(trims.begin(), trims.end(), [](const SolidTrim& t) { return !t.is_added; }) > 1)
+    return {};
+  constexpr double kGradient = 2;  // ours: voxels; where the fillet ends directions are still asked for
+  constexpr double kPairs = 4, kFours = 8;  // ours: voxels; the surface and its gradient need two
+  const double fillet = field.blend.union_radius / field.voxel() + kGradient;
+  return {.pairs_outside = std::max(kPairs, fillet),
+          .pairs_inside = kPairs,
+          .fours_outside = std::max(kFours, fillet),
+          .fours_inside = kFours};
+}
+
+}  // namespace
+
 SiteField build_site_field(const std::vector<FusionSolid>& solids, const FieldOptions& options) {
   SiteField field;
   field.distance.lattice = field_lattice(solids, options);
@@ -179,8 +199,8 @@ SiteField build_site_field(const std::vector<FusionSolid>& solids, const FieldOp
   field.band = options.band_voxels * lattice.voxel;
   std::vector<SourceSamples> sources;
   for (const FusionSolid& solid : solids)
-    sources.push_back(
-        sample_source(lattice, solid.bvh, solid.triangles, solid.presence, options.band_voxels));
+    sources.push_back(sample_source(lattice, solid.bvh, solid.triangles, solid.presence, options.band_voxels,
+                                    reach_of(field)));
   field.distance.values.resize(lattice.count());
   parallel_chunks(lattice.count(), 4096, [&](std::size_t begin, std::size_t end) {
     std::vector<SolidSample> samples(solids.size());
