@@ -39,18 +39,17 @@ class Classifier {
   // Cells [begin, begin + size) along each axis, as far as there are any. `around`: of the cube around it.
   void visit(const std::array<std::int32_t, 3>& begin, std::int32_t size, const Known& around) const {
     const double radius = std::sqrt(3.0) / 2 * size * cells_.lattice.voxel;
-    if (size == kFinestAsked) {
-      // The centre of the cube around it is as far away as the corners.
-      if (is_far(around.side, around.distance - 2 * radius, size)) return fill(begin, size, size, around);
-      if (!may_be_far(around.distance, size)) return fill(begin, size, 1, around);
-    }
+    // The centre of the cube around it is as far from its own as the corners are.
+    if (size <= SamplingCells::kCoarsest && is_far(around.side, around.distance - 2 * radius, size))
+      return fill(begin, size, size, around);
+    if (size == kFinestAsked && !may_be_far(around.distance, size)) return fill(begin, size, 1, around);
     const Vec3 centre = cells_.lattice.point(begin[0], begin[1], begin[2]) +
                         Vec3::Constant(cells_.lattice.voxel * size / 2.0);
     const ClosestPoint nearest = bvh_.closest_from_hint(centre, around.triangle);
     Known here{nearest.triangle, around.side, nearest.distance};
     if (here.side == Side::Unknown) here.side = side(centre, nearest.distance, radius);
-    if (size <= SamplingCells::kCoarsest && is_far(here.side, here.distance - radius, size))
-      return fill(begin, size, size, here);
+    const std::int32_t asked_by = std::min(size, SamplingCells::kCoarsest);
+    if (is_far(here.side, here.distance - radius, asked_by)) return fill(begin, size, asked_by, here);
     if (size > kFinestAsked) return split(begin, size, here);
     fill(begin, size, 1, here);
   }
@@ -78,11 +77,13 @@ class Classifier {
   void fill(const std::array<std::int32_t, 3>& begin, std::int32_t size, std::int32_t asked_by,
             const Known& known) const {
     const auto n = cells_.count();
-    for (std::int32_t k = begin[2] / 2; k < (begin[2] + size) / 2; ++k)
-      for (std::int32_t j = begin[1] / 2; j < (begin[1] + size) / 2; ++j)
-        std::fill_n(cells_.pairs.begin() + (static_cast<std::ptrdiff_t>(k) * n[1] + j) * n[0] + begin[0] / 2,
-                    size / 2,
-                    SamplingCells::Pair{known.triangle, static_cast<std::uint8_t>(asked_by), known.side});
+    const auto end = [&](int axis) { return std::min((begin[axis] + size) / 2, n[axis]); };
+    for (std::int32_t k = begin[2] / 2; k < end(2); ++k)
+      for (std::int32_t j = begin[1] / 2; j < end(1); ++j) {
+        const auto row = cells_.cubes.begin() + (static_cast<std::ptrdiff_t>(k) * n[1] + j) * n[0];
+        std::fill(row + begin[0] / 2, row + end(0),
+                  SamplingCells::Cube{known.triangle, static_cast<std::uint8_t>(asked_by), known.side});
+      }
   }
 
   void split(const std::array<std::int32_t, 3>& begin, std::int32_t size, const Known& here) const {
@@ -114,7 +115,7 @@ SamplingCells grown(const Lattice& lattice) {
     cells.lattice.origin[axis] = lattice.origin[axis] - cells.first[axis] * lattice.voxel;
   }
   const auto n = cells.count();
-  cells.pairs.resize(static_cast<std::size_t>(n[0]) * n[1] * n[2]);
+  cells.cubes.resize(static_cast<std::size_t>(n[0]) * n[1] * n[2]);
   return cells;
 }
 
@@ -129,11 +130,11 @@ void SamplingCells::look_around(std::int32_t i, std::int32_t j, std::int32_t k,
   for (std::int32_t z = std::max(k - 1, 0) / 2; z <= std::min(k / 2, n[2] - 1); ++z)
     for (std::int32_t y = std::max(j - 1, 0) / 2; y <= std::min(j / 2, n[1] - 1); ++y)
       for (std::int32_t x = std::max(i - 1, 0) / 2; x <= std::min((end - 1) / 2, n[0] - 1); ++x) {
-        const Pair& pair = at(x, y, z);
+        const Cube& cube = at(x, y, z);
         for (std::int32_t p = std::max(2 * x, i); p < std::min(2 * x + 3, end); ++p) {
           Around& point = points[static_cast<std::size_t>(p - i)];
-          point.size = std::min(point.size, pair.size);
-          if (point.side == Side::Unknown) point.side = pair.side;
+          point.size = std::min(point.size, cube.size);
+          if (point.side == Side::Unknown) point.side = cube.side;
         }
       }
 }

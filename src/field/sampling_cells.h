@@ -27,21 +27,21 @@ struct SamplingCells {
   std::array<std::int32_t, 3> first = {0, 0, 0};  ///< point of `lattice` that is the original one's first
 
   /// A cube of 2^3 cells.
-  struct Pair {
+  struct Cube {
     std::int32_t triangle = 0;  ///< near it
     std::uint8_t size = 1;      ///< cells along an edge of the cube that it is asked by: 1, 2 or 4
     Side side = Side::Unknown;  ///< of the whole cube
   };
-  std::vector<Pair> pairs;  ///< x fastest; half as many as cells along each axis
+  std::vector<Cube> cubes;  ///< x fastest; half as many as cells along each axis
 
   static constexpr std::int32_t kCoarsest = 4;
 
   std::array<std::int32_t, 3> count() const {
     return {lattice.size[0] / 2, lattice.size[1] / 2, lattice.size[2] / 2};
   }
-  const Pair& at(std::int32_t i, std::int32_t j, std::int32_t k) const {
+  const Cube& at(std::int32_t i, std::int32_t j, std::int32_t k) const {
     const auto n = count();
-    return pairs[(static_cast<std::size_t>(k) * n[1] + j) * n[0] + i];
+    return cubes[(static_cast<std::size_t>(k) * n[1] + j) * n[0] + i];
   }
 
   /// What the cubes around a point say of it.

@@ -80,9 +80,12 @@ class Corners {
   void read_row(const Point& first, std::span<float> distance, std::span<float> presence) const {
     std::vector<SamplingCells::Around> around(distance.size());
     cells_.look_around(first[0], first[1], first[2], around);
+    Ends ends;
     for (std::size_t n = 0; n < around.size(); ++n) {
-      const Sample sample = at({first[0] + static_cast<std::int32_t>(n), first[1], first[2]}, around[n].size);
-      distance[n] = sample.distance;
+      const Point p = {first[0] + static_cast<std::int32_t>(n), first[1], first[2]};
+      const Sample sample = around[n].size == 1 ? samples_[cells_.lattice.index(p[0], p[1], p[2])]
+                                                : between(p, around[n].size, ends);
+      distance[n] = std::clamp(sample.distance, -band_, band_);
       presence[n] = sample.presence;
     }
   }
@@ -101,18 +104,21 @@ class Corners {
     std::array<SamplingCells::Around, kBlock> around;
     const std::span row(around.data(), static_cast<std::size_t>(std::min(kBlock, size[0] - begin[0])));
     const auto n = cells_.count();
-    std::int32_t triangle = cells_
-                                .at(std::min(begin[0] / 2, n[0] - 1), std::min(begin[1] / 2, n[1] - 1),
-                                    std::min(begin[2] / 2, n[2] - 1))
-                                .triangle;
+    std::array<std::int32_t, kBlock * kBlock>
+        near;  // the triangle nearest to the last point asked of a column
+    near.fill(cells_
+                  .at(std::min(begin[0] / 2, n[0] - 1), std::min(begin[1] / 2, n[1] - 1),
+                      std::min(begin[2] / 2, n[2] - 1))
+                  .triangle);
     for (std::int32_t k = begin[2]; k < std::min(begin[2] + kBlock, size[2]); ++k)
       for (std::int32_t j = begin[1]; j < std::min(begin[1] + kBlock, size[1]); ++j) {
         cells_.look_around(begin[0], j, k, row);
+        std::int32_t* const near_row = near.data() + kBlock * (j - begin[1]);
         for (std::size_t r = 0; r < row.size(); ++r) {
           const Point p = {begin[0] + static_cast<std::int32_t>(r), j, k};
           if (((p[0] | j | k) & (row[r].size - 1)) != 0) continue;
           Sample& sample = samples_[cells_.lattice.index(p[0], j, k)];
-          sample = ask(p, triangle);
+          sample = ask(p, near_row[r]);
           if (row[r].side == Side::Inside) sample.distance = -sample.distance;
           if (row[r].side == Side::Unknown) sideless.push_back({p, &sample, {}});
         }
@@ -162,30 +168,45 @@ class Corners {
     return {winding > 0.5, is_closed_ ? std::numeric_limits<double>::infinity() : spare};
   }
 
-  Sample at(const Point& p, std::int32_t size) const {
-    const auto& lattice = cells_.lattice;
-    if (size == 1) return cut(samples_[lattice.index(p[0], p[1], p[2])]);
-    const Point along = {p[0] & (size - 1), p[1] & (size - 1), p[2] & (size - 1)};
-    // The weights are whole numbers, so that the sums do not depend on which way the axes run.
+  // Sums of whole multiples of samples, so that they do not depend on which way the axes run.
+  struct Sum {
     double distance = 0, presence = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      Point at = p;
-      std::int32_t weight = 1;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const bool is_high = corner >> axis & 1;
-        weight *= is_high ? along[axis] : size - along[axis];
-        at[axis] += (is_high ? size : 0) - along[axis];
-      }
-      if (weight == 0) continue;
-      const Sample& sample = samples_[lattice.index(at[0], at[1], at[2])];
-      distance += weight * static_cast<double>(sample.distance);
-      presence += weight * static_cast<double>(sample.presence);
+  };
+  // Of the cube that the last point of a row lay in, its two sides across the row.
+  struct Ends {
+    std::int32_t begin = 0, size = 0;
+    Sum low, high;
+  };
+
+  Sample between(const Point& p, std::int32_t size, Ends& ends) const {
+    const std::int32_t along = p[0] & (size - 1), begin = p[0] - along;
+    if (ends.size != size || ends.begin != begin) {
+      ends = {begin, size, sum_across({begin, p[1], p[2]}, size), {}};
+      // The row may end with its low side.
+      if (begin + size < cells_.lattice.size[0]) ends.high = sum_across({begin + size, p[1], p[2]}, size);
     }
     const double volume = static_cast<double>(size) * size * size;
-    return cut({static_cast<float>(distance / volume), static_cast<float>(presence / volume)});
+    const auto mean = [&](double low, double high) {
+      return static_cast<float>(((size - along) * low + along * high) / volume);
+    };
+    return {mean(ends.low.distance, ends.high.distance), mean(ends.low.presence, ends.high.presence)};
   }
 
-  Sample cut(const Sample& s) const { return {std::clamp(s.distance, -band_, band_), s.presence}; }
+  Sum sum_across(const Point& p, std::int32_t size) const {
+    const std::int32_t y = p[1] & (size - 1), z = p[2] & (size - 1);
+    Sum sum;
+    const auto add = [&](std::int32_t weight, std::int32_t j, std::int32_t k) {
+      if (weight == 0) return;
+      const Sample& sample = samples_[cells_.lattice.index(p[0], j, k)];
+      sum.distance += weight * static_cast<double>(sample.distance);
+      sum.presence += weight * static_cast<double>(sample.presence);
+    };
+    add((size - y) * (size - z), p[1] - y, p[2] - z);
+    add(y * (size - z), p[1] - y + size, p[2] - z);
+    add((size - y) * z, p[1] - y, p[2] - z + size);
+    add(y * z, p[1] - y + size, p[2] - z + size);
+    return sum;
+  }
 
   const SamplingCells& cells_;
   const TriangleBvh& bvh_;
