@@ -104,21 +104,18 @@ class Corners {
     std::array<SamplingCells::Around, kBlock> around;
     const std::span row(around.data(), static_cast<std::size_t>(std::min(kBlock, size[0] - begin[0])));
     const auto n = cells_.count();
-    std::array<std::int32_t, kBlock * kBlock>
-        near;  // the triangle nearest to the last point asked of a column
-    near.fill(cells_
-                  .at(std::min(begin[0] / 2, n[0] - 1), std::min(begin[1] / 2, n[1] - 1),
-                      std::min(begin[2] / 2, n[2] - 1))
-                  .triangle);
+    std::int32_t near = cells_
+                            .at(std::min(begin[0] / 2, n[0] - 1), std::min(begin[1] / 2, n[1] - 1),
+                                std::min(begin[2] / 2, n[2] - 1))
+                            .triangle;
     for (std::int32_t k = begin[2]; k < std::min(begin[2] + kBlock, size[2]); ++k)
       for (std::int32_t j = begin[1]; j < std::min(begin[1] + kBlock, size[1]); ++j) {
         cells_.look_around(begin[0], j, k, row);
-        std::int32_t* const near_row = near.data() + kBlock * (j - begin[1]);
         for (std::size_t r = 0; r < row.size(); ++r) {
           const Point p = {begin[0] + static_cast<std::int32_t>(r), j, k};
           if (((p[0] | j | k) & (row[r].size - 1)) != 0) continue;
           Sample& sample = samples_[cells_.lattice.index(p[0], j, k)];
-          sample = ask(p, near_row[r]);
+          sample = ask(p, near);
           if (row[r].side == Side::Inside) sample.distance = -sample.distance;
           if (row[r].side == Side::Unknown) sideless.push_back({p, &sample, {}});
         }

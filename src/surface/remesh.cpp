@@ -125,8 +125,8 @@ void collapse_short_edges(Mesh& mesh, const RemeshOptions& options) {
     if (mesh.status(e).deleted()) continue;
     if (mesh.calc_edge_length(e) >= options.collapse_ratio * target_length(mesh, e)) continue;
     const HalfedgeHandle h = collapsible_halfedge(mesh, e);
-    if (!h.is_valid() || !mesh.is_collapse_ok(h)) continue;
-    if (makes_long_edges(mesh, h, options.split_ratio) || makes_chord(mesh, h)) continue;
+    if (!h.is_valid() || makes_long_edges(mesh, h, options.split_ratio)) continue;
+    if (!mesh.is_collapse_ok(h) || makes_chord(mesh, h)) continue;
     const VertexHandle gone = mesh.from_vertex_handle(h), stays = mesh.to_vertex_handle(h);
     if (turns_faces(mesh, gone, mesh.point(stays), kTurnsWhenCollapsed, stays)) continue;
     mesh.collapse(h);
@@ -134,16 +134,33 @@ void collapse_short_edges(Mesh& mesh, const RemeshOptions& options) {
   mesh.garbage_collection();
 }
 
-int wanted_valence(const Mesh& mesh, VertexHandle v) {
-  return mesh.is_boundary(v) ? 4 : 6;
-}
+// Valences of all vertices, kept as edges are flipped.
+class Valences {
+ public:
+  explicit Valences(const Mesh& mesh) {
+    for (const VertexHandle v : mesh.vertices()) {
+      valence_.push_back(static_cast<int>(mesh.valence(v)));
+      wanted_.push_back(mesh.is_boundary(v) ? 4 : 6);
+    }
+  }
 
-int valence_defect(const Mesh& mesh, VertexHandle v, int change) {
-  const int defect = static_cast<int>(mesh.valence(v)) + change - wanted_valence(mesh, v);
-  return defect * defect;
-}
+  int of(VertexHandle v) const { return valence_[static_cast<std::size_t>(v.idx())]; }
+  int defect(VertexHandle v, int change) const {
+    const int defect = of(v) + change - wanted_[static_cast<std::size_t>(v.idx())];
+    return defect * defect;
+  }
+  // Edge a-b becomes c-d.
+  void flip(VertexHandle a, VertexHandle b, VertexHandle c, VertexHandle d) {
+    for (const VertexHandle v : {a, b}) --valence_[static_cast<std::size_t>(v.idx())];
+    for (const VertexHandle v : {c, d}) ++valence_[static_cast<std::size_t>(v.idx())];
+  }
+
+ private:
+  std::vector<int> valence_, wanted_;
+};
 
 void flip_towards_regular(Mesh& mesh) {
+  Valences valences(mesh);
   for (const EdgeHandle e : all_edges(mesh)) {
     if (mesh.is_boundary(e) || !mesh.is_flip_ok(e)) continue;
     const HalfedgeHandle h = mesh.halfedge_handle(e, 0), o = mesh.halfedge_handle(e, 1);
@@ -151,13 +168,13 @@ void flip_towards_regular(Mesh& mesh) {
     const VertexHandle c = mesh.to_vertex_handle(mesh.next_halfedge_handle(h));
     const VertexHandle d = mesh.to_vertex_handle(mesh.next_halfedge_handle(o));
     if (mesh.data(c).is_fixed && mesh.data(d).is_fixed) continue;
-    const int before = valence_defect(mesh, a, 0) + valence_defect(mesh, b, 0) + valence_defect(mesh, c, 0) +
-                       valence_defect(mesh, d, 0);
-    const int after = valence_defect(mesh, a, -1) + valence_defect(mesh, b, -1) + valence_defect(mesh, c, 1) +
-                      valence_defect(mesh, d, 1);
+    const int before =
+        valences.defect(a, 0) + valences.defect(b, 0) + valences.defect(c, 0) + valences.defect(d, 0);
+    const int after =
+        valences.defect(a, -1) + valences.defect(b, -1) + valences.defect(c, 1) + valences.defect(d, 1);
     if (after >= before) continue;
-    if (!mesh.is_boundary(a) && mesh.valence(a) <= 3) continue;
-    if (!mesh.is_boundary(b) && mesh.valence(b) <= 3) continue;
+    if (!mesh.is_boundary(a) && valences.of(a) <= 3) continue;
+    if (!mesh.is_boundary(b) && valences.of(b) <= 3) continue;
     const Vec3 normal = face_cross(mesh.point(a), mesh.point(b), mesh.point(c)) +
                         face_cross(mesh.point(b), mesh.point(a), mesh.point(d));
     const Vec3 first = face_cross(mesh.point(c), mesh.point(a), mesh.point(d)),
@@ -169,6 +186,7 @@ void flip_towards_regular(Mesh& mesh) {
     };
     if (faces_away(first, c, a, d) || faces_away(second, d, b, c)) continue;
     mesh.flip(e);
+    valences.flip(a, b, c, d);
   }
 }
 
