@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,7 +46,13 @@ struct SamplingCells {
     return cubes[(static_cast<std::size_t>(k) * n[1] + j) * n[0] + i];
   }
 
-  /// What the cubes around a point say of it.
+  /// One of the cubes around a point of `lattice`.
+  const Cube& around(std::int32_t i, std::int32_t j, std::int32_t k) const {
+    const auto n = count();
+    return at(std::min(i / 2, n[0] - 1), std::min(j / 2, n[1] - 1), std::min(k / 2, n[2] - 1));
+  }
+
+  /// What all cubes around a point say of it.
   struct Around {
     std::uint8_t size = kCoarsest;  ///< of the finest
     Side side = Side::Unknown;      ///< the one that is known

@@ -103,11 +103,7 @@ class Corners {
     std::vector<Sideless> sideless;
     std::array<SamplingCells::Around, kBlock> around;
     const std::span row(around.data(), static_cast<std::size_t>(std::min(kBlock, size[0] - begin[0])));
-    const auto n = cells_.count();
-    std::int32_t near = cells_
-                            .at(std::min(begin[0] / 2, n[0] - 1), std::min(begin[1] / 2, n[1] - 1),
-                                std::min(begin[2] / 2, n[2] - 1))
-                            .triangle;
+    std::int32_t near = cells_.around(begin[0], begin[1], begin[2]).triangle;
     for (std::int32_t k = begin[2]; k < std::min(begin[2] + kBlock, size[2]); ++k)
       for (std::int32_t j = begin[1]; j < std::min(begin[1] + kBlock, size[1]); ++j) {
         cells_.look_around(begin[0], j, k, row);

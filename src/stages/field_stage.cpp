@@ -21,7 +21,7 @@ class Field final : public Stage {
     return {
         .name = "field",
         .instance = std::to_string(site_ + 1),
-        .version = 4,
+        .version = 5,
         .reads = {names_.placement(), names_.graft(), names_.placed(), names_.selection(), names_.groups()},
         .writes = {names_.field(site_)}};
   }

@@ -165,7 +165,7 @@ LatticeCost lattice_cost(const std::vector<FusionSolid>& solids, const FieldOpti
   const Box box = given_up_region(solids, region);
   const double points = (box.sizes().array() / voxel + 2 * options.margin_voxels + 2).prod();
   constexpr double kSample = 8, kResult = 4;  // distance and presence of each solid; what the blend gives
-  constexpr double kSampling = 16;            // cubes and corners of one solid at a time
+  constexpr double kSampling = 9;             // cubes and corners of one solid at a time
   constexpr double kGrid = 12;                // ours: the tree that OpenVDB makes of it, and its file
   return {points, points * (kSample * static_cast<double>(solids.size()) + kSampling + kResult + kGrid)};
 }

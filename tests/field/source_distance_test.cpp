@@ -128,6 +128,59 @@ TEST(SampleSource, OpenMeshKeepsItsInside) {
   EXPECT_GT(inside * std::pow(lattice.voxel, 3), 3.6);  // the full ball has 4.19
 }
 
+// Law: few points are asked for their winding numbers, but each side is what that would say. Closed: a knot
+// and a ball that run into each other, and a ball in a ball. Open: the same with every eleventh triangle
+// lost.
+TEST(SampleSource, SidesAreThoseOfTheWindingNumber) {
+  Soup closed = testing::torus_knot_soup(60, 8);
+  for (const double radius : {0.8, 1.6}) {
+    const Soup ball = testing::sphere_soup(12, radius, Vec3(1, 0, 0));
+    const auto first = static_cast<std::int32_t>(closed.positions.size());
+    closed.positions.insert(closed.positions.end(), ball.positions.begin(), ball.positions.end());
+    for (const auto& t : ball.triangles)
+      closed.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  Soup open = closed;
+  open.triangles.clear();
+  for (std::size_t t = 0; t < closed.triangles.size(); ++t)
+    if (t % 11 != 0) open.triangles.push_back(closed.triangles[t]);
+  for (const Soup& soup : {closed, open}) {
+    const TriangleBvh bvh(soup.positions, soup.triangles);
+    const Lattice lattice = testing::centred_lattice(61, 3.3);
+    const SourceSamples samples = sample_source(lattice, bvh, soup.triangles, ramp(soup), 30);
+    std::size_t wrong = 0;
+    for (int k = 0; k < 61; ++k)
+      for (int j = 0; j < 61; ++j)
+        for (int i = 0; i < 61; ++i) {
+          const bool is_inside = bvh.winding_number(lattice.point(i, j, k)) > 0.5;
+          const float distance = samples.distance[lattice.index(i, j, k)];
+          wrong += std::abs(distance) < 5 && (distance < 0) != is_inside;
+        }
+    EXPECT_EQ(wrong, 0u);
+  }
+}
+
+// Law: where less is asked for, points nearer to the surface than that still get their own distance.
+TEST(SampleSource, AsksAsFarAsItIsTold) {
+  const Soup ball = testing::sphere_soup(40);
+  const TriangleBvh bvh(ball.positions, ball.triangles);
+  const Lattice lattice = testing::centred_lattice(61, 2.4);
+  const SamplingReach reach{.pairs_outside = 4, .pairs_inside = 3, .fours_outside = 8, .fours_inside = 7};
+  const SourceSamples samples = sample_source(lattice, bvh, ball.triangles, ramp(ball), 30, reach);
+  double near = 0, far = 0;  // largest errors, voxels
+  for (int k = 0; k < 61; ++k)
+    for (int j = 0; j < 61; ++j)
+      for (int i = 0; i < 61; ++i) {
+        const Vec3 p = lattice.point(i, j, k);
+        const double distance = bvh.closest(p).distance / lattice.voxel, nearest = p.norm() > 1 ? 4 : 3;
+        const double error = std::abs(std::abs(samples.distance[lattice.index(i, j, k)]) - distance);
+        double& largest = distance < nearest ? near : far;
+        largest = std::max(largest, error);
+      }
+  EXPECT_LT(near, 1e-4);
+  EXPECT_GT(far, 0.05);
+}
+
 TEST(SampleSource, SameBitsForAnyNumberOfThreads) {
   const Soup knot = testing::torus_knot_soup(60, 8);
   const Lattice lattice = testing::centred_lattice(50, 3.7);
