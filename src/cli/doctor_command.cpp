@@ -73,7 +73,7 @@ std::vector<Check> checks(const CommandLine& line) {
   return {
       {"reading FBX, DAE and OBJ in a child process", true, fault_of(import_triangle),
        "the program must be able to start itself again"},
-      {"distance fields (OpenVDB)", true, fault_of(write_field),
+      {".vdb files (OpenVDB)", true, fault_of(write_field),
        "libskinforge_vdb.so belongs beside the program; build again"},
       {"cache", true, cache_fault(line.cache), "--cache DIR or $SKINFORGE_CACHE names another folder"},
       {"3D view of reports", false,

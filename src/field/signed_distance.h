@@ -55,8 +55,11 @@ struct IsoSurface {
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< quads split along the shorter diagonal
 };
 
-/// Zero surface of the field by OpenVDB's dual contouring (adaptivity 0). Closed inside the lattice; open
-/// where it meets the lattice's faces. Same bits for any number of threads.
+/// Zero surface of the field by dual contouring: in each cell a vertex for each sheet that passes through it,
+/// at the mean of the points where that crosses edges (in float, in voxels), and a quad across each edge that
+/// is crossed. Vertex for vertex OpenVDB's `volumeToMesh` at adaptivity 0, whose order and whose choice
+/// between the two ways to join an ambiguous face it follows; that would have to be loaded first. Closed
+/// inside the lattice; open where it meets the lattice's faces.
 IsoSurface extract_iso_surface(const DistanceField& field);
 
 /// The field as a `.vdb` file that other tools open: one FloatGrid "distance" of class level set, with its

@@ -59,10 +59,6 @@ const VdbFunctions& functions() {
 
 }  // namespace
 
-IsoSurface extract_iso_surface(const DistanceField& field) {
-  return functions().extract_iso_surface(field);
-}
-
 Bytes to_vdb(const DistanceField& field) {
   return functions().to_vdb(field);
 }

@@ -2,6 +2,5 @@
 
 extern "C" {
 extern const skinforge::VdbFunctions skinforge_vdb_functions;
-const skinforge::VdbFunctions skinforge_vdb_functions = {skinforge::vdb::extract_iso_surface,
-                                                         skinforge::vdb::to_vdb};
+const skinforge::VdbFunctions skinforge_vdb_functions = {skinforge::vdb::to_vdb};
 }

@@ -4,18 +4,16 @@
 
 /// OpenVDB stands in a shared module of its own, `libskinforge_vdb.so` beside the program: its library binds
 /// 70,000 symbols when it is loaded (46 ms, more than a whole build that finds everything in the cache), so
-/// it is loaded when somebody first asks for a surface or a `.vdb` file.
+/// it is loaded when somebody first asks for a `.vdb` file.
 namespace skinforge {
 
 namespace vdb {
-/// What stands behind the functions of the same names in field/signed_distance.h.
-IsoSurface extract_iso_surface(const DistanceField& field);
+/// What stands behind the function of the same name in field/signed_distance.h.
 Bytes to_vdb(const DistanceField& field);
 }  // namespace vdb
 
 /// What the module gives.
 struct VdbFunctions {
-  IsoSurface (*extract_iso_surface)(const DistanceField&);
   Bytes (*to_vdb)(const DistanceField&);
 };
 
