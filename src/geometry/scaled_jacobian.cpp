@@ -37,6 +37,32 @@ double least_corner(std::span<const Vec3> polygon) {
   return least;
 }
 
+// The same, corner by corner, and the normal that they are measured against.
+template <std::size_t N>
+CornerJacobians corners_of(std::span<const Vec3> polygon) {
+  CornerJacobians result{{-1, -1, -1, -1}, area_normal_of<N>(polygon)};
+  const double size = result.normal.norm();
+  if (!(size > 0)) return result;
+  result.normal /= size;
+  std::array<Vec3, N> side;
+  std::array<double, N> length;
+  for (std::size_t i = 0; i < N; ++i) {
+    side[i] = polygon[(i + 1) % N] - polygon[i];
+    length[i] = side[i].norm();
+  }
+  if (!(*std::min_element(length.begin(), length.end()) > 0)) return result;
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::size_t last = (i + N - 1) % N;
+    result.corner[i] = side[last].cross(side[i]).dot(result.normal) / (length[last] * length[i]);
+  }
+  return result;
+}
+
+// A triangle's sines in shares of that of 60 degrees.
+double share_of_equilateral(double sine) {
+  return std::max(sine, 0.0) * 2 / std::numbers::sqrt3;
+}
+
 }  // namespace
 
 double scaled_jacobian_of_quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -44,12 +70,19 @@ double scaled_jacobian_of_quad(const Vec3& a, const Vec3& b, const Vec3& c, cons
 }
 
 double scaled_jacobian_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return std::max(least_corner<3>(std::array{a, b, c}), 0.0) * 2 / std::numbers::sqrt3;
+  return share_of_equilateral(least_corner<3>(std::array{a, b, c}));
 }
 
 double scaled_jacobian(std::span<const Vec3> polygon) {
   if (polygon.size() == 3) return scaled_jacobian_of_triangle(polygon[0], polygon[1], polygon[2]);
   return polygon.size() == 4 ? least_corner<4>(polygon) : least_corner<0>(polygon);
+}
+
+CornerJacobians corner_jacobians(std::span<const Vec3> polygon) {
+  if (polygon.size() == 4) return corners_of<4>(polygon);
+  CornerJacobians result = corners_of<3>(polygon);
+  for (double& corner : result.corner) corner = std::min(share_of_equilateral(corner), 1.0);
+  return result;
 }
 
 }  // namespace skinforge

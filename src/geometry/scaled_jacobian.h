@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "base/math.h"
@@ -18,5 +19,15 @@ double scaled_jacobian_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
 /// Either, by the number of positions; a larger polygon: the least sine-like product over its corners as for
 /// a quad.
 double scaled_jacobian(std::span<const Vec3> polygon);
+
+/// What the scaled Jacobian of a triangle or quad is the least of.
+struct CornerJacobians {
+  std::array<double, 4>
+      corner;   ///< of a triangle the first three; without a side or area -1, or 0 of a triangle
+  Vec3 normal;  ///< unit area normal; without area zero
+};
+
+/// That, for three or four positions; corners of a triangle are at most 1, as its scaled Jacobian is.
+CornerJacobians corner_jacobians(std::span<const Vec3> polygon);
 
 }  // namespace skinforge
