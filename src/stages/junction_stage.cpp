@@ -23,7 +23,7 @@ class MakeJunctions final : public Stage {
 
   StageInfo info() const override {
     StageInfo info{.name = "junction",
-                   .version = 8,
+                   .version = 9,
                    .reads = {names_.graft(), names_.placed(), names_.selection(), names_.groups()},
                    .writes = {names_.surface()}};
     for (std::size_t k = 0; k < site_count_; ++k) info.reads.push_back(names_.field(k));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <span>
 
 #include "surface/half_tube.h"
@@ -25,19 +26,26 @@ constexpr double kLeastWithSeams = 0.3;
 constexpr double kGain = 1e-3;        // ours: less is no gain, so equals do not hang on the last bit
 constexpr double kDomainScale = 0.5;  // ours: of the edges of the patch that carries a tube's coordinates
 
+// A tube as it lies on its domain, and what mirroring does to it if it is to be symmetric.
+struct LaidTube {
+  QuadPatch patch;
+  std::optional<PatchMirror> mirror;
+};
+
 // Keeps the best of the tubes that pass their gates.
 class Choice {
  public:
   explicit Choice(const TubeProblem& problem) : problem_(problem) {}
 
   bool is_good() const { return score_ >= kGoodLeast + kMeanWeight * kGoodMean; }
-  const std::optional<QuadPatch>& best() const { return best_; }
+  const std::optional<LaidTube>& best() const { return best_; }
   const std::string& fault() const { return fault_; }
   void note(const std::string& trouble) {
     if (fault_.empty()) fault_ = trouble;
   }
 
-  void offer(QuadPatch quads) {
+  void offer(LaidTube tube) {
+    QuadPatch& quads = tube.patch;
     if (!is_gain(quads)) return;
     if (faults_of(halved(quads), problem_.loops, problem_.kept).any()) {
       quads.positions = untangled(halved(quads), problem_.loops, problem_.kept).positions;
@@ -46,7 +54,7 @@ class Choice {
       if (faults.any()) return note(describe(faults));
     }
     score_ = score_of(quads);
-    best_ = std::move(quads);
+    best_ = std::move(tube);
   }
 
  private:
@@ -57,16 +65,18 @@ class Choice {
   }
 
   bool is_gain(const QuadPatch& quads) {
+    const double score = score_of(quads);
+    if (best_ && score <= score_ + kGain) return false;
     std::string trouble = fault_of(quads, problem_.field);
     const double least = least_scaled_jacobian(quads);
     if (trouble.empty() && problem_.loops.size() > 2 && least < kLeastWithSeams)
       trouble = fmt::format("least scaled Jacobian {:.2f}", least);
     if (!trouble.empty()) note(trouble);
-    return trouble.empty() && score_of(quads) > score_ + kGain;
+    return trouble.empty() && score > score_ + kGain;
   }
 
   const TubeProblem& problem_;
-  std::optional<QuadPatch> best_;
+  std::optional<LaidTube> best_;
   double score_ = 0;
   std::string fault_;  // of the first that did not pass
 };
@@ -83,12 +93,6 @@ constexpr int kMoreRows[] = {0, 1, -1, 2, 3, 4};
 // Where the first table gives faces as bad as this, other rows do not mend them (ours: a least scaled
 // Jacobian).
 constexpr double kHopeless = -0.3;
-
-// A tube as it lies on its domain, and what mirroring does to it if it is to be symmetric.
-struct LaidTube {
-  QuadPatch patch;
-  std::optional<PatchMirror> mirror;
-};
 
 // How a tube gets its tables, and how one is made of them.
 struct Maker {
@@ -122,23 +126,40 @@ Maker unfolded_tube(const QuadTube& tube, std::size_t on_plane, const PatchMirro
           }};
 }
 
-// Places for a tube's vertices, offered twice: where all faces are good, then where the worst are. Smoothing
-// before that serves all but thin and sharp shapes. Returns the least scaled Jacobian that came of it.
-double offer_places(const LaidTube& laid, const WantedSurface& surface, bool is_polished, Choice& choice) {
-  const PatchMirror* mirror = laid.mirror ? &*laid.mirror : nullptr;
-  const WantedSurface wanted = mirror ? mirrored(surface, mirror->plane) : surface;
-  QuadPatch patch = laid.patch;
-  if (mirror) make_symmetric(patch, *mirror);
-  if (is_polished) polish(patch, wanted.project);
-  if (mirror) make_symmetric(patch, *mirror);  // but for rounding it is
+// Moves a tube's vertices for one goal after the other and offers it each time, until there is a good one.
+// Returns the least scaled Jacobian that came of it.
+double improve_and_offer(LaidTube& tube, std::initializer_list<FaceGoal> goals, const WantedSurface& wanted,
+                         Choice& choice) {
   double least = -1;
-  for (const FaceGoal goal : {FaceGoal::All, FaceGoal::Worst}) {
-    improve_faces(patch, wanted, goal, mirror);
-    least = std::max(least, least_scaled_jacobian(patch));
-    choice.offer(patch);
+  for (const FaceGoal goal : goals) {
+    improve_faces(tube.patch, wanted, goal, tube.mirror ? &*tube.mirror : nullptr);
+    least = std::max(least, least_scaled_jacobian(tube.patch));
+    choice.offer(tube);
     if (choice.is_good()) break;
   }
   return least;
+}
+
+WantedSurface wanted_for(const LaidTube& tube, const WantedSurface& surface) {
+  return tube.mirror ? mirrored(surface, tube.mirror->plane) : surface;
+}
+
+// Places for a tube's vertices: where all faces are good, then where the worst are. Smoothing before that
+// serves all but thin and sharp shapes.
+double offer_places(LaidTube tube, const WantedSurface& surface, bool is_polished, Choice& choice) {
+  const WantedSurface wanted = wanted_for(tube, surface);
+  if (tube.mirror) make_symmetric(tube.patch, *tube.mirror);
+  if (is_polished) polish(tube.patch, wanted.project);
+  if (tube.mirror) make_symmetric(tube.patch, *tube.mirror);  // but for rounding it is
+  return improve_and_offer(tube, {FaceGoal::All, FaceGoal::Worst}, wanted, choice);
+}
+
+// The best tube once more where it is not good: what told it from others need not be where its faces are
+// best.
+void settle(const WantedSurface& surface, Choice& choice) {
+  if (!choice.best() || choice.is_good()) return;
+  LaidTube tube = *choice.best();
+  improve_and_offer(tube, {FaceGoal::Settled, FaceGoal::Worst}, wanted_for(tube, surface), choice);
 }
 
 // Tables tried among seams once one has passed: more gained 0.03 in least scaled Jacobian and took a second
@@ -200,9 +221,10 @@ std::optional<QuadPatch> best_tube(const TrianglePatch& patch, const TubeProblem
       if (const auto domain = even_domain(fine, problem.loops))
         try_domain(*domain, maker, problem, borders, choice);
   }
-  if (!choice.best())
-    fault = choice.fault().empty() ? "the counts of its borders do not meet" : choice.fault();
-  return choice.best();
+  settle(problem.surface, choice);
+  if (choice.best()) return choice.best()->patch;
+  fault = choice.fault().empty() ? "the counts of its borders do not meet" : choice.fault();
+  return std::nullopt;
 }
 
 }  // namespace skinforge

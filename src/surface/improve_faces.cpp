@@ -5,23 +5,28 @@
 #include <cmath>
 #include <optional>
 
-#include "geometry/scaled_jacobian.h"
-
 namespace skinforge {
 namespace {
 
-// What counts beside the lack of quality (ours): voxels off the surface, beyond the first; the squared
-// distance from the middle of the neighbours, in edges; and badness that hardly changes, at which a vertex
-// stays. And what a unit normal and the field's gradient lack to that product.
-constexpr double kOff = 0.5, kOffWeight = 0.2, kEvenWeight = 0.2, kFlat = 1e-3, kFacing = 0.2,
-                 kFacingWeight = 4;
-
-constexpr double kRestWorst = 0.1;  // ours: what all that counts beside it is worth to the worst face
-constexpr int kRounds = 10;
-constexpr double kFirstStep = 0.6,
-                 kShrink = 0.8;  // ours: how far is asked and gone, of the mean edge at the vertex
+constexpr double kFlat = 1e-3;  // ours: badness that hardly changes, at which a vertex stays
 constexpr double kDamping =
     0.5;  // ours: whole steps made noise in the last bit of a position grow a hundredfold
+
+// Rounds of steps that shrink (ours).
+struct Pace {
+  int rounds;
+  double first_step, shrink;  // how far is asked and gone, of the mean edge at the vertex
+  double evenness;            // weight of the squared distance from the middle of the neighbours, in edges
+  bool is_careful;            // steps are shorter where a vertex has short edges among long ones
+};
+
+// A few rounds tell tables apart; in them a vertex goes an edge or two at most, and what is far from where it
+// belongs needs many. So many turn a face over where a step is longer than the face is wide, and noise in the
+// last bit grew ten thousandfold by it; but the first few find less with careful steps.
+Pace pace_of(FaceGoal goal) {
+  if (goal == FaceGoal::Settled) return {60, 0.6, 0.97, 0.1, true};
+  return {10, 0.6, 0.8, 0.2, false};
+}
 
 class Search {
  public:
@@ -29,10 +34,9 @@ class Search {
       : patch_(patch),
         surface_(surface),
         mirror_(mirror),
-        goal_(goal),
-        rest_(goal == FaceGoal::Worst ? kRestWorst : 1),
+        pace_(pace_of(goal)),
+        badness_(goal, surface.voxel),
         faces_(patch.positions.size()),
-        facing_weight_(std::isfinite(surface.voxel) ? kFacingWeight : 0),
         seen_(patch.quads.size() + patch.triangles.size()) {
     for (std::size_t f = 0; f < face_count(); ++f)
       for (const std::int32_t v : face(f)) faces_[v].push_back(f);
@@ -41,8 +45,8 @@ class Search {
   // Every free vertex towards less badness. No place is compared with another: where a vertex goes depends on
   // all numbers continuously, so equal inputs at two scales stay alike.
   void run() {
-    double step = kFirstStep;
-    for (int round = 0; round < kRounds; ++round, step *= kShrink) {
+    double step = pace_.first_step;
+    for (int round = 0; round < pace_.rounds; ++round, step *= pace_.shrink) {
       look();
       for (std::size_t v = patch_.fixed; v < patch_.positions.size(); ++v)
         if (!faces_[v].empty() && is_leading(v)) descend(static_cast<std::int32_t>(v), step);
@@ -71,63 +75,40 @@ class Search {
   struct Shape {
     std::array<Vec3, 4> corners;
     std::size_t count = 0;
-    Vec3 centre = Vec3::Zero();
+
+    std::span<const Vec3> polygon() const { return std::span(corners).first(count); }
   };
   Shape shape(std::size_t f) const {
     Shape s;
-    for (const std::int32_t v : face(f)) s.centre += s.corners[s.count++] = patch_.positions[v];
-    s.centre /= static_cast<double>(s.count);
+    for (const std::int32_t v : face(f)) s.corners[s.count++] = patch_.positions[v];
     return s;
   }
 
-  static Vec3 unit_normal(const Shape& s) {
-    const auto& c = s.corners;
-    const Vec3 normal = s.count == 4 ? (c[2] - c[0]).cross(c[3] - c[1]) : (c[1] - c[0]).cross(c[2] - c[0]);
-    return normal.norm() > 0 ? Vec3(normal.normalized()) : normal;
-  }
-  // `facing`: of the unit normal and the way outward.
-  static double quality(const Shape& s, double facing) {
-    const double jacobian = scaled_jacobian(std::span(s.corners).first(s.count));
-    return facing < 0 ? std::min(jacobian, 0.0) - 1 : jacobian;
-  }
-  // The surface beneath each face, before its vertices are moved about. What it is like at the places tried
-  // is told from there: asking anew for each costs ten times as much.
+  // The surface beneath each face, before its vertices are moved about.
   void look() {
     for (std::size_t f = 0; f < face_count(); ++f) {
-      const Vec3 centre = shape(f).centre;
+      Vec3 centre = Vec3::Zero();
+      for (const std::int32_t v : face(f)) centre += patch_.positions[v];
+      centre /= static_cast<double>(face(f).size());
       seen_[f] = {centre, surface_.outward(centre), surface_.distance(centre)};
     }
   }
 
-  // In sum over the faces around. A cube weighs the worst most, and still gains from all, its square the
-  // worst above all; what is off the surface by more than the gate allows for most faces counts, too, and
-  // what all but turns away from it, as faces do that span a thin part, where the field in their middle is
-  // flat (ours).
   double badness_around(std::int32_t v) const {
     double sum = 0;
-    for (const std::size_t f : faces_[v]) {
-      const Shape s = shape(f);
-      const Seen& seen = seen_[f];
-      const double facing = unit_normal(s).dot(seen.outward), away = std::max(kFacing - facing, 0.0);
-      const double distance = seen.distance + seen.outward.dot(s.centre - seen.centre);
-      const double bad = 1 - quality(s, facing),
-                   off = std::max(std::abs(distance) / surface_.voxel - kOff, 0.0);
-      const double cube = bad * bad * bad;
-      sum += (goal_ == FaceGoal::Worst ? cube * cube : cube) + rest_ * kOffWeight * off * off +
-             facing_weight_ * away * away;
-    }
+    for (const std::size_t f : faces_[v]) sum += badness_.of(shape(f).polygon(), seen_[f]);
     return sum;
   }
 
-  // Two unit tangents at a vertex, the middle of its neighbours, and the mean length of its edges; none where
-  // its faces have no direction.
+  // Two unit tangents at a vertex, the middle of its neighbours, and the mean and the harmonic mean of the
+  // lengths of its edges; none where its faces have no direction.
   struct Frame {
     Vec3 x, y, middle;
-    double length;
+    double length, harmonic;
   };
   std::optional<Frame> frame(std::int32_t v) const {
     Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
-    double length = 0;
+    double length = 0, inverse = 0;
     int edges = 0;
     for (const std::size_t f : faces_[v]) {
       const auto vertices = face(f);
@@ -137,6 +118,7 @@ class Search {
       normal += next.cross(last);
       middle += next + last;
       length += next.norm() + last.norm();
+      inverse += 1 / next.norm() + 1 / last.norm();
       edges += 2;
     }
     normal = normal.norm() > 0 ? Vec3(normal.normalized()) : Vec3(Vec3::UnitZ());
@@ -145,7 +127,7 @@ class Search {
         patch_.positions[ring[(place_in(faces_[v].front(), v) + 1) % ring.size()]] - patch_.positions[v];
     const Vec3 x = (along - along.dot(normal) * normal).normalized();
     if (!x.allFinite()) return std::nullopt;
-    return Frame{x, normal.cross(x), patch_.positions[v] + middle / edges, length / edges};
+    return Frame{x, normal.cross(x), patch_.positions[v] + middle / edges, length / edges, edges / inverse};
   }
 
   std::size_t place_in(std::size_t f, std::int32_t v) const {
@@ -159,18 +141,18 @@ class Search {
     const auto at = frame(v);
     if (!at) return;
     const Vec3 start = patch_.positions[v];
-    const double reach = step * at->length;
+    const double reach = step * (pace_.is_careful ? std::sqrt(at->length * at->harmonic) : at->length);
     const auto badness = [&](const Vec3& place) {
       this->move(v, place);
-      return badness_around(v) +
-             rest_ * kEvenWeight * (place - at->middle).squaredNorm() / (at->length * at->length);
+      return badness_around(v) + badness_.rest() * pace_.evenness * (place - at->middle).squaredNorm() /
+                                     (at->length * at->length);
     };
     const double here = badness(start);
     Vec3 step_taken = Vec3::Zero();
     for (const Vec3& axis : {at->x, at->y}) {
       const double ahead = badness(start + reach * axis), behind = badness(start - reach * axis);
       const double slope = (ahead - behind) / 2, curvature = ahead + behind - 2 * here;
-      step_taken -= slope / (std::abs(curvature) + std::abs(slope) + rest_ * kFlat) * reach * axis;
+      step_taken -= slope / (std::abs(curvature) + std::abs(slope) + badness_.rest() * kFlat) * reach * axis;
     }
     move(v, surface_.project(start + kDamping * step_taken));
   }
@@ -178,15 +160,10 @@ class Search {
   QuadPatch& patch_;
   const WantedSurface& surface_;
   const PatchMirror* mirror_;
-  FaceGoal goal_;
-  double rest_;  // what counts beside the lack of quality, by this
+  Pace pace_;
+  FaceBadness badness_;
   std::vector<std::vector<std::size_t>> faces_;
-  double facing_weight_;  // 0 where the way outward is a guess
-  struct Seen {
-    Vec3 centre, outward;
-    double distance;
-  };
-  std::vector<Seen> seen_;  // of each face
+  std::vector<SurfaceBeneath> seen_;  // of each face
 };
 
 }  // namespace

@@ -1,11 +1,9 @@
 #pragma once
 
+#include "surface/face_badness.h"
 #include "surface/patch_mirror.h"
 
 namespace skinforge {
-
-/// What is better: all faces in sum, or the worst of them above all.
-enum class FaceGoal : std::uint8_t { All, Worst };
 
 /// Moves free vertices sideways on the surface to where the faces around them are better (junction.md b.2,
 /// step 6): damped Newton steps that shrink, a fixed number of rounds. Better is a scaled Jacobian nearer to
