@@ -21,10 +21,10 @@ struct TubeProblem {
 /// The best tube of quads (`QuadTube`) in the place of a triangulated patch between the problem's loops, two
 /// or more: over several tables, numbers of rows and ways to place the vertices, the first that reaches the
 /// targets of the least and the mean scaled Jacobian, else the one nearest to them that passes the gates of
-/// its rung (`quad_gate.h`) and has no fault (`junction_faults.h`); by the first way to see the patch as a
-/// tube that gives one. None, with the reason in `fault`, when there is none. `mirror`: what mirroring does
-/// to the fixed vertices where the patch is its own image; then only tubes are made that are, too, by a
-/// mirrored table between two borders, by a tube of one half between more.
+/// its rung (`quad_gate.h`) and has no fault (`junction_faults.h`), settled (`FaceGoal`); by the first way to
+/// see the patch as a tube that gives one. None, with the reason in `fault`, when there is none. `mirror`:
+/// what mirroring does to the fixed vertices where the patch is its own image; then only tubes are made that
+/// are, too, by a mirrored table between two borders, by a tube of one half between more.
 std::optional<QuadPatch> best_tube(const TrianglePatch& patch, const TubeProblem& problem, std::string& fault,
                                    const PatchMirror* mirror = nullptr);
 
