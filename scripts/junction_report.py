@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Builds recipes and prints one line for each of their junctions; fails when one has a crack, a fold or a cut, or when
-symmetric faces lie off their images.
+"""Builds recipes and prints one line for each of their junctions; fails when one has a crack, a fold or a cut, when
+symmetric faces lie off their images, when a tube of quads is worse than its gates (src/surface/junction.md), and, over all
+recipes, when fewer than nine in ten of the junctions that join borders are tubes.
 
     scripts/junction_report.py [--program FILE] [RECIPE ...]
         (default: build/release/skinforge, recipes/*.json and $SKINFORGE_SHARED/recipes/*.json)
@@ -52,12 +53,23 @@ def line(recipe, junction, seconds):
             "-" if cuts is None else cuts, symmetry(junction), f"{seconds:.2f}", junction["reason"]]
 
 
+def tube_faults(junction):
+    """Where a tube of quads falls short of the bars of the design."""
+    borders, jacobian = junction["border_loops"], junction["scaled_jacobian"]
+    found = {"folded_faces": junction["folded_faces"] > 0, "triangles": junction["triangles"] > sum(borders) % 2,
+             "least scaled Jacobian": jacobian["min"] < 0.2, "median scaled Jacobian": jacobian["p50"] < 0.5,
+             "mean scaled Jacobian": jacobian["mean"] < 0.85, "deviation": junction["deviation"]["p95"] > 1}
+    if len(borders) == 2:
+        found["irregular_vertices"] = junction["irregular_vertices"] > abs(borders[0] - borders[1]) + 8
+    return [name for name, is_short in found.items() if is_short]
+
+
 def faults(junction):
     """What no junction may have, on whatever rung."""
     found = [key for key in ("boundary_edges", "non_manifold_edges", "degenerate_faces", "self_intersections")
              if junction[key]]
-    if junction["rung"] == "tube" and junction["folded_faces"]:
-        found.append("folded_faces")
+    if junction["rung"] == "tube":
+        found += tube_faults(junction)
     if symmetry(junction) not in ("-", "faces", "0"):
         found.append("symmetry")
     return found
@@ -72,7 +84,7 @@ def main():
     recipes = arguments.recipes or sorted((ROOT / "recipes").glob("*.json")) + sorted(shared.glob("*.json"))
     rows = [["junction", "borders", "rung", "quads", "tris", "irregular", "SJ", "mean", "dev 95%", "max", "dihedral",
              "cuts", "symmetry", "CPU s", "why not better"]]
-    bad = []
+    bad, rungs = [], []
     with tempfile.TemporaryDirectory() as scratch:
         for recipe in recipes:
             report, timings = build(arguments.program, recipe, scratch)
@@ -81,10 +93,14 @@ def main():
                 if junction["faces"] == 0:
                     continue
                 rows.append(line(recipe.stem, junction, seconds))
+                if junction["rung"] != "cap":
+                    rungs.append(junction["rung"])
                 bad += [f"{recipe.stem} {junction['operation']}: {fault}" for fault in faults(junction)]
     widths = [max(len(str(row[c])) for row in rows) for c in range(len(rows[0]) - 1)]
     for row in rows:
         print("  ".join([str(cell).ljust(width) for cell, width in zip(row, widths)] + [row[-1]]).rstrip())
+    if not arguments.recipes and rungs.count("tube") < 0.9 * len(rungs):
+        bad.append(f"only {rungs.count('tube')} of {len(rungs)} junctions are tubes")
     for fault in bad:
         print(fault, file=sys.stderr)
     return 1 if bad else 0
